@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "package/horizon_edge.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
+#include "tests/runtime/horizon/packet_by_packet.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 
 namespace farlod {
@@ -18,6 +20,8 @@ namespace {
 constexpr SkyWeight both_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
 constexpr Point3f up{0.0F, 0.0F, 1.0F};
 constexpr std::size_t azimuths = 128;
+
+std::array<float, 3> ends(const SvfInterval& svf) { return {svf.low, svf.estimate, svf.high}; }
 
 /// A raster of 1 m over a cell of 20 m, 1.5 m above the ground.
 std::vector<Receiver> dense_receivers(const Point3f& normal) {
@@ -51,30 +55,13 @@ class KnownTown {
   [[nodiscard]] const AzimuthSampling& ring() const { return ring_; }
   /// Answers receivers packet by packet; the numbers of those that needed rays.
   std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<SvfInterval> intervals) {
-    return packet_by_packet(receivers, intervals, &HorizonEngine::evaluate);
+    return packet_by_packet(engine_, receivers, intervals, &HorizonEngine::evaluate);
   }
   std::vector<std::uint32_t> evaluate_with_bounds(std::span<const Receiver> receivers, std::span<SvfInterval> intervals) {
-    return packet_by_packet(receivers, intervals, &HorizonEngine::evaluate_with_bounds);
+    return packet_by_packet(engine_, receivers, intervals, &HorizonEngine::evaluate_with_bounds);
   }
 
  private:
-  using Evaluate = void (HorizonEngine::*)(std::span<const ReceiverPacket>, std::span<PacketAnswer>);
-  std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<SvfInterval> intervals,
-                                              Evaluate answer) {
-    std::vector<std::uint32_t> by_rays;
-    for (std::uint32_t first = 0; first < receivers.size(); first += ReceiverPacket::lanes) {
-      const std::size_t count = std::min(ReceiverPacket::lanes, receivers.size() - first);
-      ReceiverPacket packet;
-      for (const Receiver& r : receivers.subspan(first, count)) packet.add(r);
-      PacketAnswer of_packet;
-      (engine_.*answer)({&packet, 1}, {&of_packet, 1});
-      std::copy_n(of_packet.svf.begin(), count, intervals.begin() + first);
-      for (std::uint32_t l = 0; l < count; ++l)
-        if (((of_packet.by_rays >> l) & 1U) != 0) by_rays.push_back(first + l);
-    }
-    return by_rays;
-  }
-
   AzimuthSampling ring_ = AzimuthSampling::even(azimuths, {});
   FarHorizonByHand far_{{}};
   PackedOverhangs packed_;
@@ -135,17 +122,13 @@ TEST(HorizonEngine, APacketIsAnsweredAlikeInAnyGroup) {
     if (packets.empty() || packets.back().count == ReceiverPacket::lanes) packets.emplace_back();
     packets.back().add(r);
   }
-  using Evaluate = void (HorizonEngine::*)(std::span<const ReceiverPacket>, std::span<PacketAnswer>);
   for (const Evaluate evaluate : {Evaluate{&HorizonEngine::evaluate}, Evaluate{&HorizonEngine::evaluate_with_bounds}}) {
     std::vector<PacketAnswer> together(packets.size()), alone(1);
     (known.engine().*evaluate)(packets, together);
     for (std::size_t n = 0; n < packets.size(); ++n) {
       (known.engine().*evaluate)(std::span(packets).subspan(n, 1), alone);
-      for (std::size_t l = 0; l < packets[n].count; ++l) {
-        EXPECT_EQ(together[n].svf[l].low, alone[0].svf[l].low) << n << ", " << l;
-        EXPECT_EQ(together[n].svf[l].estimate, alone[0].svf[l].estimate) << n << ", " << l;
-        EXPECT_EQ(together[n].svf[l].high, alone[0].svf[l].high) << n << ", " << l;
-      }
+      for (std::size_t l = 0; l < packets[n].count; ++l)
+        EXPECT_EQ(ends(together[n].svf[l]), ends(alone[0].svf[l])) << n << ", " << l;
     }
   }
 }
@@ -184,9 +167,7 @@ TEST(HorizonEngine, ReceiversOfOnePacketMayStandOnDifferentFloors) {
   known.evaluate_with_bounds(receivers, together);
   for (std::size_t n = 0; n < receivers.size(); ++n) {
     known.evaluate_with_bounds(std::span(receivers).subspan(n, 1), alone);
-    EXPECT_EQ(alone[0].low, together[n].low) << n;
-    EXPECT_EQ(alone[0].estimate, together[n].estimate) << n;
-    EXPECT_EQ(alone[0].high, together[n].high) << n;
+    EXPECT_EQ(ends(alone[0]), ends(together[n])) << n;
   }
   // Below the lowest floor nothing is certain
   EXPECT_EQ(together.front().low, 0.0F);

@@ -20,6 +20,7 @@
 #include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/grazing_rays.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
+#include "tests/runtime/horizon/packet_by_packet.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 
 namespace farlod {
@@ -261,11 +262,6 @@ Scene gallery_and_bridges() {
 
 class OverhangScenes : public testing::TestWithParam<Scene> {
  protected:
-  [[nodiscard]] std::vector<Receiver> receivers(const std::vector<Point3f>& places) const {
-    std::vector<Receiver> result;
-    for (const Point3f& p : places) result.push_back({result.size(), p, level_normal});
-    return result;
-  }
   [[nodiscard]] std::vector<SvfInterval> evaluate(const std::vector<Point3f>& places, bool wants_bounds) const {
     const PackedOverhangs packed(GetParam().town.overhanging());
     OverhangGeometry overhangs = packed.geometry();
@@ -273,15 +269,11 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     FarHorizonByHand far({});
     HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth},
                          JumpPlaces::between_azimuths);
+    std::vector<Receiver> receivers;
+    for (const Point3f& p : places) receivers.push_back({receivers.size(), p, level_normal});
     std::vector<SvfInterval> intervals(places.size());
-    for (std::size_t first = 0; first < places.size(); first += ReceiverPacket::lanes) {
-      const std::size_t count = std::min(ReceiverPacket::lanes, places.size() - first);
-      ReceiverPacket packet;
-      for (std::size_t n = first; n < first + count; ++n) packet.add({n, places[n], level_normal});
-      PacketAnswer answer;
-      wants_bounds ? engine.evaluate_with_bounds({&packet, 1}, {&answer, 1}) : engine.evaluate({&packet, 1}, {&answer, 1});
-      std::copy_n(answer.svf.begin(), count, intervals.begin() + static_cast<std::ptrdiff_t>(first));
-    }
+    const Evaluate answer = wants_bounds ? Evaluate{&HorizonEngine::evaluate_with_bounds} : Evaluate{&HorizonEngine::evaluate};
+    (void)packet_by_packet(engine, receivers, intervals, answer);
     return intervals;
   }
 };

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rays/ray_engine.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 
 #include "evaluate/visibility.hpp"
 #include "horizon/sky_partition.hpp"
@@ -26,6 +27,8 @@ struct Setting {
   int boxes, overhangs;
 };
 void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.name; }
+
+std::array<std::uint32_t, 3> interval(const FreeRays& free) { return {free.low, free.estimate, free.high}; }
 
 class RayEngineInTown : public testing::TestWithParam<Setting> {
  protected:
@@ -64,9 +67,7 @@ TEST_P(RayEngineInTown, CountsWhatTheWholeSceneLeavesFree) {
         EXPECT_EQ(free[l].low, free[l].estimate) << "nothing is residual";
       }
       EXPECT_LE(free[l].low, free[l].estimate);
-      EXPECT_EQ(plain[l].low, free[l].estimate);
-      EXPECT_EQ(plain[l].estimate, free[l].estimate);
-      EXPECT_EQ(plain[l].high, free[l].estimate);
+      EXPECT_THAT(interval(plain[l]), testing::Each(free[l].estimate));
       through_gaps += free[l].estimate - free[l].low;
       EXPECT_EQ(free[l].high, free[l].estimate) << "nothing is residual";
       grazing += perhaps_free - surely_free;
@@ -91,10 +92,7 @@ TEST(RayEngine, AnEmptyTownHidesNothing) {
   const DirectionSampling sampling(SkyPartition(SkyWeight::solid_angle, 145).directions());
   RayEngine engine(sampling, far.map(), empty.silhouettes(), overhangs, true);
   const std::vector<Receiver> receivers{{0, {3.0F, 3.0F, 1.5F}}, {1, {4.0F, 3.0F, 1.5F}}};
-  for (const FreeRays& free : engine.count(receivers)) {
-    EXPECT_EQ(free.low, 145U);
-    EXPECT_EQ(free.high, 145U);
-  }
+  for (const FreeRays& free : engine.count(receivers)) EXPECT_THAT(interval(free), testing::Each(145U));
 }
 
 // A wall to the east is near, on the ground or floating; one to the west is far, once explicit, once residual.
@@ -195,9 +193,7 @@ TEST_P(TwoWalls, RetracingMakesTheUncertainExactAndLeavesTheRest) {
   const std::vector<std::uint32_t> truth = exact();
   for (std::size_t n = 0; n < after.size(); ++n) {
     const FreeRays expected = ((uncertain >> n) & 1U) != 0 ? FreeRays{truth[n], truth[n], truth[n]} : before[n];
-    EXPECT_EQ(after[n].low, expected.low) << n;
-    EXPECT_EQ(after[n].estimate, expected.estimate) << n;
-    EXPECT_EQ(after[n].high, expected.high) << n;
+    EXPECT_EQ(interval(after[n]), interval(expected)) << n;
   }
 }
 
@@ -213,22 +209,14 @@ TEST_P(TwoWalls, AStopEndsCountingAndRetracing) {
 TEST_P(TwoWalls, WithoutBoundsTheEstimateIsTheSame) {
   RayEngine without(sampling_, far_.map(), silhouettes_, overhangs_, false);
   const std::vector<FreeRays> bounded = engine_.count(receivers_), plain = without.count(receivers_);
-  for (std::size_t n = 0; n < receivers_.size(); ++n) {
-    EXPECT_EQ(plain[n].estimate, bounded[n].estimate) << n;
-    EXPECT_EQ(plain[n].low, plain[n].estimate) << n;
-    EXPECT_EQ(plain[n].high, plain[n].estimate) << n;
-  }
+  for (std::size_t n = 0; n < receivers_.size(); ++n) EXPECT_THAT(interval(plain[n]), testing::Each(bounded[n].estimate)) << n;
 }
 
 TEST_P(TwoWalls, APacketDoesNotRememberTheOneBefore) {
   const std::vector<FreeRays> all = engine_.count(receivers_);
   const std::vector<FreeRays> some = engine_.count(std::span(receivers_).subspan(3, 5));
   ASSERT_EQ(some.size(), 5U);
-  for (std::size_t n = 0; n < some.size(); ++n) {
-    EXPECT_EQ(some[n].low, all[n + 3].low);
-    EXPECT_EQ(some[n].estimate, all[n + 3].estimate);
-    EXPECT_EQ(some[n].high, all[n + 3].high);
-  }
+  for (std::size_t n = 0; n < some.size(); ++n) EXPECT_EQ(interval(some[n]), interval(all[n + 3]));
 }
 
 TEST_P(TwoWalls, ReceiversAtDifferentHeightsSeeEachAtItsOwn) {
@@ -236,9 +224,7 @@ TEST_P(TwoWalls, ReceiversAtDifferentHeightsSeeEachAtItsOwn) {
   const std::vector<FreeRays> together = engine_.count(receivers_);
   for (std::size_t n = 0; n < receivers_.size(); ++n) {
     const std::vector<FreeRays> alone = engine_.count(std::span(receivers_).subspan(n, 1));
-    EXPECT_EQ(together[n].low, alone[0].low) << n;
-    EXPECT_EQ(together[n].estimate, alone[0].estimate) << n;
-    EXPECT_EQ(together[n].high, alone[0].high) << n;
+    EXPECT_EQ(interval(together[n]), interval(alone[0])) << n;
   }
   EXPECT_LT(together.front().estimate, together.back().estimate) << "the higher, the more sky";
 }

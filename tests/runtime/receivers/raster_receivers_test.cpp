@@ -61,6 +61,23 @@ TEST(RasterPlan, RunsFromTheNorthWest) {
   EXPECT_EQ(plan.centre_m(3, 4), (Point2d{107.0, 191.0}));
 }
 
+// Pixels are placed all at once, triangle by triangle. The judge looks at each of them alone.
+
+std::map<std::size_t, Point3f> one_by_one(const PackageReader& package, const package::Manifest& manifest, const RasterPlan& plan,
+                                          const PixelRange& range, Cell cell, HeightAbove above) {
+  const PointLocator locator(package, cell);
+  std::map<std::size_t, Point3f> result;
+  for (std::size_t row = range.row_begin; row < range.row_end; ++row)
+    for (std::size_t column = range.column_begin; column < range.column_end; ++column) {
+      const Point2d p_grid = manifest.grid_from_projected(plan.centre_m(column, row));
+      if (package.grid().cell_of(p_grid) != cell) continue;
+      const Point2d p = p_grid - package.grid().corner_of(cell);
+      if (const auto standing = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, 1.5F))
+        result[row * plan.columns + column] = *standing;
+    }
+  return result;
+}
+
 /// A small town on a turned grid, somewhere in the output CRS.
 class RasterOfATown : public testing::TestWithParam<double> {
  protected:
@@ -74,20 +91,21 @@ class RasterOfATown : public testing::TestWithParam<double> {
     return PackageReader(folder_.path() / "town.farlod");
   }
 
-  /// Every pixel in turn, without patches and ranges.
-  std::map<std::size_t, Point3f> one_by_one(const RasterPlan& plan, HeightAbove above, float height_m) const {
-    std::map<Cell, PointLocator> columns;
-    std::map<std::size_t, Point3f> result;
-    for (std::size_t n = 0; n < plan.columns * plan.rows; ++n) {
-      const Point2d p_grid = manifest_.grid_from_projected(plan.centre_m(n % plan.columns, n / plan.columns));
-      const Cell cell = package_.grid().cell_of(p_grid);
-      if (!package_.grid().cells.contains(cell)) continue;
-      const auto found = columns.try_emplace(cell, package_, cell).first;
-      const Point2d p = p_grid - package_.grid().corner_of(cell);
-      if (const auto standing = stand(found->second, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
-        result[n] = *standing;
-    }
-    return result;
+  /// Every pixel in turn, without ranges.
+  std::map<std::size_t, Point3f> one_by_one(const RasterPlan& plan, HeightAbove above) const {
+    std::map<std::size_t, Point3f> all;
+    const CellRange& cells = package_.grid().cells;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n)
+      all.merge(farlod::one_by_one(package_, manifest_, plan, {0, plan.columns, 0, plan.rows}, cells.cell_at(n), above));
+    return all;
+  }
+  void expect_each_pixel_once(const RasterPlan& plan, HeightAbove above) const {
+    const RasterReceivers receivers(manifest_, plan);
+    std::map<std::size_t, Point3f> found;
+    for (const Cell cell : receivers.cells())
+      for (const Receiver& r : receivers.in_cell(package_, cell, above, 1.5F).receivers)
+        EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
+    EXPECT_EQ(found, one_by_one(plan, above)) << plan.step_m;
   }
 
   scenes::TemporaryFolder folder_;
@@ -111,27 +129,11 @@ TEST_P(RasterOfATown, CoversAllCells) {
 
 TEST_P(RasterOfATown, EachPixelBelongsToExactlyOneCell) {
   for (const double step_m : {1.0, 3.7, 40.0})
-    for (const HeightAbove above : {HeightAbove::ground, HeightAbove::highest_surface}) {
-      const RasterPlan plan = plan_raster(manifest_, step_m, std::nullopt);
-      const RasterReceivers receivers(manifest_, plan);
-      std::map<std::size_t, Point3f> found;
-      for (const Cell cell : receivers.cells())
-        for (const Receiver& r : receivers.in_cell(package_, cell, above, 1.5F).receivers)
-          EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
-      EXPECT_EQ(found, one_by_one(plan, above, 1.5F)) << step_m;
-    }
-}
-
-/// Of the grids that are not turned, or by a right angle, borders run through the centres of pixels.
-TEST_P(RasterOfATown, APixelOnABorderBelongsToOneCell) {
+    for (const HeightAbove above : {HeightAbove::ground, HeightAbove::highest_surface})
+      expect_each_pixel_once(plan_raster(manifest_, step_m, std::nullopt), above);
+  // Of the grids that are not turned, or by a right angle, borders run through the centres of pixels
   manifest_.origin_m = {};
-  const RasterPlan plan = plan_raster(manifest_, 32.0, std::nullopt);
-  const RasterReceivers receivers(manifest_, plan);
-  std::map<std::size_t, Point3f> found;
-  for (const Cell cell : receivers.cells())
-    for (const Receiver& r : receivers.in_cell(package_, cell, HeightAbove::highest_surface, 1.5F).receivers)
-      EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
-  EXPECT_EQ(found, one_by_one(plan, HeightAbove::highest_surface, 1.5F));
+  expect_each_pixel_once(plan_raster(manifest_, 32.0, std::nullopt), HeightAbove::highest_surface);
 }
 
 /// Some of the cells have more pixels than are placed at once.
@@ -163,7 +165,7 @@ TEST_P(RasterOfATown, APartOfTheRasterHasTheSameReceivers) {
   const RasterPlan whole = plan_raster(manifest_, 2.0, std::nullopt);
   const Box2d wanted{whole.centre_m(5, 12), whole.centre_m(14, 4)};
   const RasterPlan part = plan_raster(manifest_, 2.0, wanted);
-  const auto all = one_by_one(whole, HeightAbove::ground, 1.5F);
+  const auto all = one_by_one(whole, HeightAbove::ground);
   const RasterReceivers receivers(manifest_, part);
   std::size_t count = 0;
   for (const Cell cell : receivers.cells())
@@ -180,7 +182,7 @@ TEST_P(RasterOfATown, APartOfTheRasterHasTheSameReceivers) {
 
 TEST_P(RasterOfATown, HousesHaveNoPixelsUnlessOneStandsOnThem) {
   const RasterPlan plan = plan_raster(manifest_, 1.0, std::nullopt);
-  const auto street = one_by_one(plan, HeightAbove::ground, 1.5F), top = one_by_one(plan, HeightAbove::highest_surface, 1.5F);
+  const auto street = one_by_one(plan, HeightAbove::ground), top = one_by_one(plan, HeightAbove::highest_surface);
   EXPECT_LT(street.size(), top.size());
   // A column's height is rounded a few times below 8 m
   constexpr float rounding_m = 4 * 8.0F * std::numeric_limits<float>::epsilon();
@@ -188,23 +190,6 @@ TEST_P(RasterOfATown, HousesHaveNoPixelsUnlessOneStandsOnThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(TurnedBy, RasterOfATown, testing::Values(0.0, 33.0, 90.0, -71.5));
-
-// Pixels are placed all at once, triangle by triangle. The judge looks at each of them alone.
-
-std::map<std::size_t, Point3f> one_by_one(const PackageReader& package, const RasterPlan& plan, const PixelRange& range,
-                                          Cell cell, HeightAbove above) {
-  const PointLocator locator(package, cell);
-  std::map<std::size_t, Point3f> result;
-  for (std::size_t row = range.row_begin; row < range.row_end; ++row)
-    for (std::size_t column = range.column_begin; column < range.column_end; ++column) {
-      const Point2d p_grid = package.manifest().grid_from_projected(plan.centre_m(column, row));
-      if (package.grid().cell_of(p_grid) != cell) continue;
-      const Point2d p = p_grid - package.grid().corner_of(cell);
-      if (const auto standing = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, 1.5F))
-        result[row * plan.columns + column] = *standing;
-    }
-  return result;
-}
 
 /// Returns the number of receivers.
 std::size_t expect_as_one_by_one(const PackageReader& package, double step_m) {
@@ -215,7 +200,8 @@ std::size_t expect_as_one_by_one(const PackageReader& package, double step_m) {
     for (const HeightAbove above : {HeightAbove::ground, HeightAbove::highest_surface}) {
       std::map<std::size_t, Point3f> found;
       for (const Receiver& r : receivers.in_cell(package, cell, above, 1.5F).receivers) found.emplace(r.index, r.p_cell);
-      EXPECT_EQ(found, one_by_one(package, plan, receivers.range_of(cell), cell, above)) << cell.i << "," << cell.j;
+      EXPECT_EQ(found, one_by_one(package, package.manifest(), plan, receivers.range_of(cell), cell, above))
+          << cell.i << "," << cell.j;
       count += found.size();
     }
   return count;

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -23,92 +26,55 @@ constexpr VerticalProfile::Crossing roof_at(float height_m, std::uint32_t buildi
   return {height_m, building, part, true};
 }
 
-TEST(VerticalProfile, NothingHasNoHeights) {
-  const VerticalProfile empty;
-  EXPECT_EQ(empty.ground_m(), std::nullopt);
-  EXPECT_EQ(empty.highest_m(), std::nullopt);
-  EXPECT_FALSE(empty.is_inside_building(0.0F));
-}
-
-TEST(VerticalProfile, AHouseStandsOnTheGround) {
-  const VerticalProfile house({floor_at(0.9F, 4), ground_at(1.0F), roof_at(7.0F, 4)});
-  EXPECT_EQ(house.ground_m(), 1.0F);
-  EXPECT_EQ(house.highest_m(), 7.0F);
-  EXPECT_TRUE(house.is_inside_building(2.5F));
-  EXPECT_FALSE(house.is_inside_building(7.5F));
-  EXPECT_FALSE(house.is_inside_building(0.5F));
-}
-
-TEST(VerticalProfile, WithoutGroundThereIsNoGroundHeight) {
-  const VerticalProfile house({floor_at(0.0F, 4), roof_at(7.0F, 4)});
-  EXPECT_EQ(house.ground_m(), std::nullopt);
-  EXPECT_EQ(house.highest_m(), 7.0F);
-}
-
-TEST(VerticalProfile, TheGroundEnclosesNothing) { EXPECT_FALSE(VerticalProfile({ground_at(1.0F)}).is_inside_building(0.5F)); }
-
-TEST(VerticalProfile, BelowTheGroundAndInsideAreBuried) {
-  const VerticalProfile house({floor_at(0.9F, 4), ground_at(1.0F), roof_at(7.0F, 4)});
-  EXPECT_TRUE(house.is_buried(0.5F)) << "below floor and ground";
-  EXPECT_TRUE(house.is_buried(2.5F));
-  EXPECT_FALSE(house.is_buried(7.5F));
-  EXPECT_FALSE(VerticalProfile({ground_at(1.0F)}).is_buried(1.0F)) << "on the ground";
-  EXPECT_FALSE(VerticalProfile({floor_at(0.0F, 4)}).is_buried(-1.0F)) << "nobody knows where the ground is";
-}
-
-TEST(VerticalProfile, BelowAFloorOnAFoundationIsBuried) {
-  // The foundation's lid is the floor once more, as a part of its own
-  const VerticalProfile house({ground_at(0.0F), floor_at(3.0F, 4), roof_at(3.0F, 4, 1), roof_at(9.0F, 4)});
-  EXPECT_TRUE(house.is_buried(1.5F));
-  EXPECT_TRUE(house.is_buried(5.0F));
-  EXPECT_FALSE(house.is_buried(9.5F));
-}
-
-TEST(VerticalProfile, BetweenTheGroundAndAFloorThatStandsOnItIsBuried) {
-  const VerticalProfile house({ground_at(34.58F), floor_at(34.627F, 4), roof_at(41.7F, 4)});
-  EXPECT_TRUE(house.is_buried(34.59F));
-  const VerticalProfile slab({ground_at(34.58F), floor_at(34.65F, 4), roof_at(41.7F, 4)});
-  EXPECT_FALSE(slab.is_buried(34.59F)) << "it does not stand on the ground";
-}
-
-TEST(VerticalProfile, UnderABridgeIsOutside) {
-  const VerticalProfile bridge({ground_at(0.0F), floor_at(5.0F, 4), roof_at(6.0F, 4)});
-  EXPECT_FALSE(bridge.is_inside_building(1.5F));
-  EXPECT_TRUE(bridge.is_inside_building(5.5F));
-  EXPECT_FALSE(bridge.is_inside_building(6.5F));
+TEST(VerticalProfile, HasTheHeightsOfGroundAndRoof) {
+  const VerticalProfile empty, house({floor_at(0.9F, 4), ground_at(1.0F), roof_at(7.0F, 4)}),
+      without_ground({floor_at(0.0F, 4), roof_at(7.0F, 4)}), bridge({ground_at(0.0F), floor_at(5.0F, 4), roof_at(6.0F, 4)});
+  EXPECT_EQ(std::pair(empty.ground_m(), empty.highest_m()), (std::pair<std::optional<float>, std::optional<float>>{}));
+  EXPECT_EQ(std::pair(house.ground_m(), house.highest_m()), std::pair(std::optional(1.0F), std::optional(7.0F)));
+  EXPECT_EQ(std::pair(without_ground.ground_m(), without_ground.highest_m()),
+            std::pair(std::optional<float>(), std::optional(7.0F)));
   EXPECT_EQ(bridge.ground_m(), 0.0F);
 }
 
-TEST(VerticalProfile, OverlappingBuildingsAreCountedApart) {
-  // Counted together, there would be two surfaces above, as under a bridge
-  const VerticalProfile two({floor_at(0.0F, 4), floor_at(0.0F, 9), roof_at(6.0F, 4), roof_at(8.0F, 9)});
-  EXPECT_TRUE(two.is_inside_building(3.0F));
-  EXPECT_TRUE(two.is_inside_building(7.0F));
-  EXPECT_FALSE(two.is_inside_building(9.0F));
+/// Heights of which something holds, and others of which it does not.
+struct Column {
+  const char* name;
+  std::vector<VerticalProfile::Crossing> crossings;
+  std::vector<float> yes, no;
+};
+
+TEST(VerticalProfile, SaysWhatIsInsideABuilding) {
+  const Column columns[] = {
+      {"nothing", {}, {}, {0.0F}},
+      {"a house", {floor_at(0.9F, 4), ground_at(1.0F), roof_at(7.0F, 4)}, {2.5F}, {0.5F, 7.5F}},
+      {"the ground encloses nothing", {ground_at(1.0F)}, {}, {0.5F}},
+      {"a bridge", {ground_at(0.0F), floor_at(5.0F, 4), roof_at(6.0F, 4)}, {5.5F}, {1.5F, 6.5F}},
+      // Counted together, there would be two surfaces above, as under a bridge
+      {"two buildings", {floor_at(0, 4), floor_at(0, 9), roof_at(6, 4), roof_at(8, 9)}, {3.0F, 7.0F}, {9.0F}},
+      {"two parts", {floor_at(0, 4, 0), floor_at(0, 4, 1), roof_at(6, 4, 0), roof_at(8, 4, 1)}, {3.0F, 7.0F}, {}},
+      {"an edge of two triangles", {floor_at(0, 4), floor_at(0, 4), roof_at(6, 4), roof_at(6.00005F, 4)}, {3.0F}, {7.0F}},
+      // Millimetres apart, but looking up and down: two surfaces above, hence outside
+      {"a thin slab", {floor_at(5.0F, 4), roof_at(5.0003F, 4)}, {}, {3.0F}},
+      {"floors within a building", {floor_at(0, 4), floor_at(3, 4), roof_at(3.2F, 4), roof_at(6, 4)}, {1.0F, 5.0F}, {}}};
+  for (const auto& [name, crossings, yes, no] : columns) {
+    for (const float m : yes) EXPECT_TRUE(VerticalProfile(crossings).is_inside_building(m)) << name << ", " << m;
+    for (const float m : no) EXPECT_FALSE(VerticalProfile(crossings).is_inside_building(m)) << name << ", " << m;
+  }
 }
 
-TEST(VerticalProfile, OverlappingPartsOfABuildingAreCountedApart) {
-  const VerticalProfile two({floor_at(0.0F, 4, 0), floor_at(0.0F, 4, 1), roof_at(6.0F, 4, 0), roof_at(8.0F, 4, 1)});
-  EXPECT_TRUE(two.is_inside_building(3.0F));
-  EXPECT_TRUE(two.is_inside_building(7.0F));
-}
-
-TEST(VerticalProfile, AnEdgeThatTwoTrianglesShareIsOneSurface) {
-  const VerticalProfile edge({floor_at(0.0F, 4), floor_at(0.0F, 4), roof_at(6.0F, 4), roof_at(6.00005F, 4)});
-  EXPECT_TRUE(edge.is_inside_building(3.0F));
-  EXPECT_FALSE(edge.is_inside_building(7.0F));
-}
-
-TEST(VerticalProfile, AThinSlabIsTwoSurfaces) {
-  // Millimetres apart, but looking up and down: two surfaces above, hence outside
-  const VerticalProfile slab({floor_at(5.0F, 4), roof_at(5.0003F, 4)});
-  EXPECT_FALSE(slab.is_inside_building(3.0F));
-}
-
-TEST(VerticalProfile, FloorsWithinABuildingDoNotMatter) {
-  const VerticalProfile storeys({floor_at(0.0F, 4), floor_at(3.0F, 4), roof_at(3.2F, 4), roof_at(6.0F, 4)});
-  EXPECT_TRUE(storeys.is_inside_building(1.0F));
-  EXPECT_TRUE(storeys.is_inside_building(5.0F));
+TEST(VerticalProfile, SaysWhatIsBuried) {
+  const Column columns[] = {
+      {"below floor and ground, and inside", {floor_at(0.9F, 4), ground_at(1.0F), roof_at(7, 4)}, {0.5F, 2.5F}, {7.5F}},
+      {"on the ground", {ground_at(1.0F)}, {}, {1.0F}},
+      {"nobody knows where the ground is", {floor_at(0.0F, 4)}, {}, {-1.0F}},
+      // The foundation's lid is the floor once more, as a part of its own
+      {"on a foundation", {ground_at(0), floor_at(3, 4), roof_at(3, 4, 1), roof_at(9, 4)}, {1.5F, 5.0F}, {9.5F}},
+      {"a floor on the ground", {ground_at(34.58F), floor_at(34.627F, 4), roof_at(41.7F, 4)}, {34.59F}, {}},
+      {"a floor above the ground", {ground_at(34.58F), floor_at(34.65F, 4), roof_at(41.7F, 4)}, {}, {34.59F}}};
+  for (const auto& [name, crossings, yes, no] : columns) {
+    for (const float m : yes) EXPECT_TRUE(VerticalProfile(crossings).is_buried(m)) << name << ", " << m;
+    for (const float m : no) EXPECT_FALSE(VerticalProfile(crossings).is_buried(m)) << name << ", " << m;
+  }
 }
 
 // Vertical profiles of packed cities, at places where geometry is at its most awkward. Ground at 0, and no height needs rounding.
