@@ -29,6 +29,14 @@ class EnrichedCity : public RealCity {
   }
 };
 
+class EnrichedRotterdam : public EnrichedCity {
+ protected:
+  void SetUp() override {
+    needs({rotterdam});
+    if (!IsSkipped()) enrich(rotterdam);
+  }
+};
+
 /// The rows of a table by building and surface.
 std::map<std::pair<std::string, std::size_t>, std::size_t> rows_by_surface(const CsvTable& table) {
   std::map<std::pair<std::string, std::size_t>, std::size_t> rows;
@@ -46,19 +54,13 @@ void expect_value(const json& object, const std::string& name, const CsvTable& t
     EXPECT_EQ(object.value(name, -1.0), table.number(row, column)) << object << name;
 }
 
-TEST_F(EnrichedCity, IsTheInputByteForByteButForTheValues) {
-  needs({rotterdam});
-  if (IsSkipped()) return;
-  enrich(rotterdam);
+TEST_F(EnrichedRotterdam, IsTheInputByteForByteButForTheValues) {
   const std::string before = scenes::text_of(data(rotterdam)), after = folder.text_of("a.city.json");
   EXPECT_GT(after.size(), before.size() + 100000U);
   EXPECT_TRUE(without_values(after) == before);
 }
 
-TEST_F(EnrichedCity, HasTheValuesOfTheTables) {
-  needs({rotterdam});
-  if (IsSkipped()) return;
-  enrich(rotterdam);
+TEST_F(EnrichedRotterdam, HasTheValuesOfTheTables) {
   const json city = folder.json_of("a.city.json");
   const CsvTable table(folder.text_of("a.surfaces.csv")), buildings(folder.text_of("a.buildings.csv"));
   for (std::size_t n = 0; n < buildings.size(); ++n) {
@@ -89,10 +91,7 @@ TEST_F(EnrichedCity, HasTheValuesOfTheTables) {
   EXPECT_GT(single, 50U);
 }
 
-TEST_F(EnrichedCity, ThreadsChangeNothing) {
-  needs({rotterdam});
-  if (IsSkipped()) return;
-  enrich(rotterdam);
+TEST_F(EnrichedRotterdam, ThreadsChangeNothing) {
   folder.must("farlod-svf a.farlod -o b.city.json --threads 1 --city " + data(rotterdam) + surfaces);
   EXPECT_TRUE(folder.text_of("a.city.json") == folder.text_of("b.city.json"));
 }
@@ -158,10 +157,7 @@ TEST_F(EnrichedCity, ASequenceHasTheValuesOfTheTables) {
   }
 }
 
-TEST_F(EnrichedCity, AnotherFileIsRefused) {
-  needs({rotterdam});
-  if (IsSkipped()) return;
-  enrich(rotterdam);
+TEST_F(EnrichedRotterdam, AnotherFileIsRefused) {
   std::string text = scenes::text_of(data(rotterdam));
   text.back() = ' ';
   folder.write("changed.city.json", text);
@@ -214,10 +210,6 @@ double height_of_wall(int n) { return 10.0 + 0.05 * n; }
 /// 15 placements of a prototype whose ring has 500,005 points, of which the packer takes some: the surfaces behind them keep
 /// their numbers.
 std::string round_building(int walls) {
-  std::string text =
-      "<?xml version='1.0'?>\n<CityModel xmlns='http://www.opengis.net/citygml/2.0' xmlns:gml='http://www.opengis.net/gml' "
-      "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:bldg='http://www.opengis.net/citygml/building/2.0'>\n"
-      "<cityObjectMember><bldg:Building gml:id='round'>";
   const auto placement = [&](int n) {
     std::string ring;
     if (n == 0) {
@@ -232,17 +224,16 @@ std::string round_building(int walls) {
            " 0</gml:pos></gml:Point></referencePoint></ImplicitGeometry></bldg:lod2ImplicitRepresentation>"
            "</bldg:BuildingInstallation></bldg:outerBuildingInstallation>\n";
   };
+  std::string text;
   for (int n = 0; n < 15; ++n) text += placement(n);
   for (int n = 0; n < walls; ++n) {
     const Corner a = round_corner(n, walls), b = round_corner(n + 1, walls);
     const double height = height_of_wall(n);
     const Corner c{b[0], b[1], height}, d{a[0], a[1], height};
-    text += "<bldg:boundedBy><bldg:WallSurface gml:id=\"i" + std::to_string(n) +
-            "\"><bldg:lod2MultiSurface><gml:MultiSurface><gml:surfaceMember>" +
-            gml_polygon({a, b, c, d}, "p" + std::to_string(n)) +
-            "</gml:surfaceMember></gml:MultiSurface></bldg:lod2MultiSurface></bldg:WallSurface></bldg:boundedBy>\n";
+    text += gml_boundary("WallSurface", " gml:id=\"i" + std::to_string(n) + "\">",
+                         gml_polygon({a, b, c, d}, "p" + std::to_string(n)));
   }
-  return text + "</bldg:Building></cityObjectMember></CityModel>\n";
+  return gml_model(gml_building("round", text));
 }
 
 /// Where the table has a wall, by its azimuth and area; nothing where no row or several have these.

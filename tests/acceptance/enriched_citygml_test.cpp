@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include <array>
+#include <numeric>
 
 #include "farlod/error.hpp"
+#include "tests/acceptance/random_towns.hpp"
 #include "tests/acceptance/real_city.hpp"
 
 namespace farlod::acceptance {
@@ -150,22 +151,10 @@ TEST_F(EnrichedCityGml, AGeneratedCityHasAllValues) {
   expect_same_city();
 }
 
-std::string polygon(const std::vector<std::array<int, 3>>& corners, const std::string& id) {
-  std::string list;
-  for (std::size_t n = 0; n <= corners.size(); ++n) {
-    const auto& [x, y, z] = corners[n % corners.size()];
-    list += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + " ";
-  }
-  return "<gml:surfaceMember><gml:Polygon gml:id='" + id + "'><gml:exterior><gml:LinearRing><gml:posList>" + list +
-         "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
-}
-
 /// The faces of a box: floor, roof, and walls.
-std::vector<std::string> box(const std::string& id, int x, int edge, int height) {
-  const int y = 5500000, e = x + edge, n = y + edge + 2;
-  const auto face = [&](int k, const std::vector<std::array<int, 3>>& corners) {
-    return polygon(corners, id + std::to_string(k));
-  };
+std::vector<std::string> box(const std::string& id, double x, double edge, double height) {
+  const double y = 5500000, e = x + edge, n = y + edge + 2;
+  const auto face = [&](int k, const Corners& corners) { return gml_polygon(corners, id + std::to_string(k)); };
   return {face(0, {{x, y, 0}, {x, n, 0}, {e, n, 0}, {e, y, 0}}),
           face(1, {{x, y, height}, {e, y, height}, {e, n, height}, {x, n, height}}),
           face(2, {{x, y, 0}, {e, y, 0}, {e, y, height}, {x, y, height}}),
@@ -173,52 +162,37 @@ std::vector<std::string> box(const std::string& id, int x, int edge, int height)
           face(4, {{e, n, 0}, {x, n, 0}, {x, n, height}, {e, n, height}}),
           face(5, {{x, n, 0}, {x, y, 0}, {x, y, height}, {x, n, height}})};
 }
-std::string reference(const std::string& id, int face) {
-  return "<gml:surfaceMember xlink:href='#" + id + std::to_string(face) + "'/>";
-}
 std::vector<std::string> references(const std::string& id) {
   std::vector<std::string> members;
-  for (int face = 0; face < 6; ++face) members.push_back(reference(id, face));
+  for (int face = 0; face < 6; ++face) members.push_back(gml_reference(id + std::to_string(face)));
   return members;
-}
-std::string all_of(const std::vector<std::string>& members) {
-  std::string text;
-  for (const std::string& member : members) text += member;
-  return text;
 }
 std::string solid(const std::vector<std::string>& members, int lod = 2) {
   const std::string property = "bldg:lod" + std::to_string(lod) + "Solid>";
-  return "<" + property + "<gml:Solid><gml:exterior><gml:CompositeSurface>" + all_of(members) +
-         "</gml:CompositeSurface></gml:exterior></gml:Solid></" + property;
+  return "<" + property + gml_solid(std::accumulate(members.begin(), members.end(), std::string())) + "</" + property;
 }
 std::string boundaries(const std::vector<std::string>& faces) {
   std::string text;
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    const std::string name = k == 0 ? "GroundSurface" : k == 1 ? "RoofSurface" : "WallSurface";
-    text += "<bldg:boundedBy><bldg:" + name + "><gml:name>" + std::to_string(k) +
-            "</gml:name><bldg:lod2MultiSurface><gml:MultiSurface>" + faces[k] +
-            "</gml:MultiSurface></bldg:lod2MultiSurface></bldg:" + name + "></bldg:boundedBy>\r\n";
-  }
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    text += gml_boundary(k == 0   ? "GroundSurface"
+                         : k == 1 ? "RoofSurface"
+                                  : "WallSurface",
+                         "><gml:name>" + std::to_string(k) + "</gml:name>", faces[k]) +
+            "\r\n";
   return text;
-}
-std::string building(const std::string& id, const std::string& content) {
-  return "<cityObjectMember><bldg:Building gml:id='" + id + "'>\n" + content + "</bldg:Building></cityObjectMember>\n";
 }
 
 /// Ways to write a box, each in a building of its own.
 std::string strange_town(const std::string& encoding) {
   std::vector<std::string> shared = box("s", 500180, 11, 9);
-  shared[3] = reference("p", 5);
-  const std::string part = "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" + boundaries(box("p", 500100, 10, 8)) +
-                           "</bldg:BuildingPart></bldg:consistsOfBuildingPart>";
-  return "<?xml version='1.0' encoding='" + encoding +
-         "'?>\n<CityModel xmlns='http://www.opengis.net/citygml/2.0' xmlns:gml='http://www.opengis.net/gml' "
-         "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:bldg='http://www.opengis.net/citygml/building/2.0'>\n" +
-         building("H\xe4user", solid(references("h")) + boundaries(box("h", 500000, 7, 5))) +
-         building("refers", solid(box("r", 500020, 8, 6)) + boundaries(references("r"))) +
-         building("copies", boundaries(box("c", 500040, 9, 7)) + solid(box("d", 500040, 9, 7))) +
-         building("levels", solid(box("e", 500060, 12, 4), 1) + boundaries(box("f", 500060, 13, 5))) +
-         building("parts", solid(box("q", 500080, 14, 3)) + part) + building("shares", boundaries(shared)) + "</CityModel>";
+  shared[3] = gml_reference("p5");
+  return gml_model(gml_building("H\xe4user", solid(references("h")) + boundaries(box("h", 500000, 7, 5))) +
+                       gml_building("refers", solid(box("r", 500020, 8, 6)) + boundaries(references("r"))) +
+                       gml_building("copies", boundaries(box("c", 500040, 9, 7)) + solid(box("d", 500040, 9, 7))) +
+                       gml_building("levels", solid(box("e", 500060, 12, 4), 1) + boundaries(box("f", 500060, 13, 5))) +
+                       gml_building("parts", solid(box("q", 500080, 14, 3)) + gml_part(boundaries(box("p", 500100, 10, 8)))) +
+                       gml_building("shares", boundaries(shared)),
+                   encoding);
 }
 
 TEST_F(EnrichedCityGml, EachWayToWriteABoxHasItsValues) {

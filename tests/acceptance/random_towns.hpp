@@ -8,23 +8,42 @@ namespace farlod::acceptance {
 
 // ---- CityGML
 
+inline std::string gml_model(const std::string& members, const std::string& encoding = "UTF-8") {
+  return "<?xml version='1.0' encoding='" + encoding +
+         "'?>\n<CityModel xmlns='http://www.opengis.net/citygml/2.0' xmlns:gml='http://www.opengis.net/gml' "
+         "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:bldg='http://www.opengis.net/citygml/building/2.0'>\n" +
+         members + "</CityModel>\n";
+}
+inline std::string gml_building(const std::string& id, const std::string& content) {
+  return "<cityObjectMember><bldg:Building gml:id=\"" + id + "\">\n" + content + "</bldg:Building></cityObjectMember>\n";
+}
+inline std::string gml_solid(const std::string& members) {
+  return "<gml:Solid><gml:exterior><gml:CompositeSurface>" + members + "</gml:CompositeSurface></gml:exterior></gml:Solid>";
+}
+inline std::string gml_part(const std::string& content) {
+  return "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" + content + "</bldg:BuildingPart></bldg:consistsOfBuildingPart>\n";
+}
+/// A semantic surface; `head` ends its tag, and holds what stands before its geometry.
+inline std::string gml_boundary(const std::string& type, const std::string& head, const std::string& members,
+                                const std::string& property = "lod2MultiSurface") {
+  return "<bldg:boundedBy><bldg:" + type + head + "<bldg:" + property + "><gml:MultiSurface>" + members +
+         "</gml:MultiSurface></bldg:" + property + "></bldg:" + type + "></bldg:boundedBy>\n";
+}
 inline std::string gml_polygon(const Corners& corners, const std::string& id) {
   std::string list;
   for (std::size_t n = 0; n <= corners.size(); ++n)
     for (const double x : corners[n % corners.size()]) list += number(x) + " ";
-  return "<gml:Polygon gml:id=\"" + id + "\"><gml:exterior><gml:LinearRing><gml:posList>" + list +
-         "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon>";
+  return "<gml:surfaceMember><gml:Polygon gml:id=\"" + id + "\"><gml:exterior><gml:LinearRing><gml:posList>" + list +
+         "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
 }
+inline std::string gml_reference(const std::string& id) { return "<gml:surfaceMember xlink:href=\"#" + id + "\"/>"; }
 
 /// A town in CityGML in which anything that changes the numbers of surfaces may happen anywhere.
 class CityGmlTown {
  public:
   explicit CityGmlTown(std::uint32_t seed) : draw_(seed) {
     for (int n = 0; n < 12; ++n) text_ += building("b" + std::to_string(n));
-    text_ =
-        "<?xml version='1.0'?>\n<CityModel xmlns='http://www.opengis.net/citygml/2.0' xmlns:gml='http://www.opengis.net/gml' "
-        "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:bldg='http://www.opengis.net/citygml/building/2.0'>\n" +
-        text_ + "</CityModel>\n";
+    text_ = gml_model(text_);
   }
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] const std::vector<WrittenSurface>& surfaces() const { return surfaces_; }
@@ -44,8 +63,7 @@ class CityGmlTown {
     if (draw_.one_in(2)) std::swap(solid, boundaries);
     if (draw_.one_in(2)) late += installation();
     if (draw_.one_in(3)) late += part();
-    return "<cityObjectMember><bldg:Building gml:id=\"" + id + "\">\n" + content + solid + boundaries + late +
-           "</bldg:Building></cityObjectMember>\n";
+    return gml_building(id, content + solid + boundaries + late);
   }
 
   /// A semantic surface of one or several polygons, some of them unusable.
@@ -54,17 +72,17 @@ class CityGmlTown {
     std::string members;
     const bool is_roof = draw_.one_in(3);  // of a roof, the file says so: one that lies alone might be a floor
     for (int n = draw_.one_in(3) ? 2 : 1; n > 0; --n) {
-      if (draw_.one_in(6)) members += "<gml:surfaceMember>" + unusable() + "</gml:surfaceMember>";
+      if (draw_.one_in(6)) members += unusable();
       const Face face = is_roof ? street_.next_roof() : street_.next_wall();
       const std::string polygon = next_id();
       surface.areas.push_back(face.area_m2);
-      members += "<gml:surfaceMember>" + gml_polygon(face.corners, polygon) + "</gml:surfaceMember>";
-      if (draw_.one_in(2)) referred.push_back("<gml:surfaceMember xlink:href=\"#" + polygon + "\"/>");
+      members += gml_polygon(face.corners, polygon);
+      if (draw_.one_in(2)) referred.push_back(gml_reference(polygon));
       // The same corners in the solid are a copy
       if (draw_.one_in(4)) {
         Corners turned = face.corners;
         std::rotate(turned.begin(), turned.begin() + 1, turned.end());
-        referred.push_back("<gml:surfaceMember>" + gml_polygon(turned, next_id()) + "</gml:surfaceMember>");
+        referred.push_back(gml_polygon(turned, next_id()));
       }
       last_ = face.corners;
     }
@@ -72,16 +90,13 @@ class CityGmlTown {
     std::string again;
     if (draw_.one_in(5)) {
       WrittenSurface& other = surfaces_.emplace_back(WrittenSurface{id_, next_id(), {surface_area_of_last()}});
-      again = boundary_text("ClosureSurface", other.name,
-                            "<gml:surfaceMember>" + gml_polygon(last_, next_id()) + "</gml:surfaceMember>");
+      again = boundary_text("ClosureSurface", other.name, gml_polygon(last_, next_id()));
     }
     const std::string name = surfaces_[surfaces_.size() - (again.empty() ? 1 : 2)].name;
     std::string other_level;
     if (draw_.one_in(4))
       other_level =
-          boundary_text("WallSurface", next_id(),
-                        "<gml:surfaceMember>" + gml_polygon(street_.next_wall().corners, next_id()) + "</gml:surfaceMember>",
-                        "lod1MultiSurface");
+          boundary_text("WallSurface", next_id(), gml_polygon(street_.next_wall().corners, next_id()), "lod1MultiSurface");
     return other_level +
            boundary_text(is_roof           ? "RoofSurface"
                          : draw_.one_in(2) ? "WallSurface"
@@ -96,23 +111,23 @@ class CityGmlTown {
 
   static std::string boundary_text(const std::string& type, const std::string& name, const std::string& members,
                                    const std::string& property = "lod2MultiSurface") {
-    return "<bldg:boundedBy><bldg:" + type + " gml:id=\"" + name + "\"><bldg:" + property + "><gml:MultiSurface>" + members +
-           "</gml:MultiSurface></bldg:" + property + "></bldg:" + type + "></bldg:boundedBy>\n";
+    return gml_boundary(type, " gml:id=\"" + name + "\">", members, property);
   }
 
   std::string unusable() {
     if (draw_.one_in(3)) return gml_polygon({{1, 2, 3}, {4, 5, 6}}, next_id());
-    if (draw_.one_in(2)) return "<gml:Polygon><gml:exterior><gml:Ring><gml:curveMember/></gml:Ring></gml:exterior></gml:Polygon>";
-    return "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>1 two 3 4 5 6 7 8 9 1 two 3</gml:posList></gml:LinearRing>"
-           "</gml:exterior></gml:Polygon>";
+    return "<gml:surfaceMember><gml:Polygon><gml:exterior>" +
+           std::string(draw_.one_in(2)
+                           ? "<gml:Ring><gml:curveMember/></gml:Ring>"
+                           : "<gml:LinearRing><gml:posList>1 two 3 4 5 6 7 8 9 1 two 3</gml:posList></gml:LinearRing>") +
+           "</gml:exterior></gml:Polygon></gml:surfaceMember>";
   }
 
   std::string shell(const std::vector<std::string>& referred) {
     std::string members;
     for (const std::string& member : referred) members += member;
-    if (referred.empty() || draw_.one_in(2))
-      members += "<gml:surfaceMember>" + gml_polygon(street_.next_wall().corners, next_id()) + "</gml:surfaceMember>";
-    return "<gml:Solid><gml:exterior><gml:CompositeSurface>" + members + "</gml:CompositeSurface></gml:exterior></gml:Solid>";
+    if (referred.empty() || draw_.one_in(2)) members += gml_polygon(street_.next_wall().corners, next_id());
+    return gml_solid(members);
   }
 
   std::string installation() {
@@ -120,15 +135,14 @@ class CityGmlTown {
     if (draw_.one_in(2)) {
       const Corner at = street_.next_wall().corners.front();
       geometry = "<bldg:lod2ImplicitRepresentation><ImplicitGeometry><relativeGMLGeometry><gml:MultiSurface gml:id=\"" +
-                 next_id() + "\"><gml:surfaceMember>" + gml_polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, next_id()) +
-                 "</gml:surfaceMember></gml:MultiSurface></relativeGMLGeometry><referencePoint><gml:Point><gml:pos>" +
-                 number(at[0]) + " " + number(at[1]) +
+                 next_id() + "\">" + gml_polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, next_id()) +
+                 "</gml:MultiSurface></relativeGMLGeometry><referencePoint><gml:Point><gml:pos>" + number(at[0]) + " " +
+                 number(at[1]) +
                  " 1</gml:pos></gml:Point></referencePoint></ImplicitGeometry>"
                  "</bldg:lod2ImplicitRepresentation>";
     } else {
-      geometry = "<bldg:lod2Geometry><gml:MultiSurface><gml:surfaceMember>" +
-                 gml_polygon(street_.next_wall().corners, next_id()) +
-                 "</gml:surfaceMember></gml:MultiSurface></bldg:lod2Geometry>";
+      geometry = "<bldg:lod2Geometry><gml:MultiSurface>" + gml_polygon(street_.next_wall().corners, next_id()) +
+                 "</gml:MultiSurface></bldg:lod2Geometry>";
     }
     return "<bldg:outerBuildingInstallation><bldg:BuildingInstallation>" + geometry +
            "</bldg:BuildingInstallation></bldg:outerBuildingInstallation>\n";
@@ -136,9 +150,7 @@ class CityGmlTown {
 
   std::string part() {
     std::vector<std::string> referred;
-    const std::string boundaries = boundary(referred);
-    return "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" + boundaries +
-           "</bldg:BuildingPart></bldg:consistsOfBuildingPart>\n";
+    return gml_part(boundary(referred));
   }
 
   Draw draw_;

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <regex>
+
 #include "archive_writer.hpp"
+#include "citygml_text.hpp"
 #include "marked_text.hpp"
 
 namespace farlod::ingest::test::citygml_places {
@@ -23,24 +26,16 @@ constexpr const char* generics_2 = " xmlns:gen=\"http://www.opengis.net/citygml/
 std::string model(const std::string& spaces, const std::string& members) {
   return "<?xml version='1.0'?>\n<CityModel " + spaces + ">" + members + "</CityModel>\n";
 }
-std::string member(const std::string& content, const std::string& id = "b") {
-  return "<cityObjectMember><bldg:Building gml:id=\"" + id + "\">" + content + "</bldg:Building></cityObjectMember>";
-}
 std::string file_with(const std::string& content) {
-  return model(std::string(spaces_of_version_2) + generics_2, member(content));
+  return model(std::string(spaces_of_version_2) + generics_2, building(content));
 }
 std::string polygon(const std::string& corners, const std::string& id = "") {
   return "<gml:surfaceMember><gml:Polygon" + (id.empty() ? "" : " gml:id=\"" + id + "\"") +
          "><gml:exterior><gml:LinearRing><gml:posList>" + corners +
          "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
 }
-std::string reference(const std::string& id) { return "<gml:surfaceMember xlink:href=\"#" + id + "\"/>"; }
 std::string geometry(const std::string& property, const std::string& members) {
-  return "<bldg:" + property + "><gml:MultiSurface>" + members + "</gml:MultiSurface></bldg:" + property + ">";
-}
-std::string solid(const std::string& members) {
-  return "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface>" + members +
-         "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";
+  return within("bldg:" + property + " gml:MultiSurface", members);
 }
 /// The same file in another version of CityGML.
 std::string in_version(const std::string& version, std::string text) {
@@ -50,7 +45,7 @@ std::string in_version(const std::string& version, std::string text) {
 /// A semantic surface; `mark` stands where generic attributes belong.
 std::string surface(const std::string& name, const std::string& mark, const std::string& members,
                     const std::string& property = "lod2MultiSurface") {
-  return "<bldg:boundedBy><bldg:" + name + ">" + mark + geometry(property, members) + "</bldg:" + name + "></bldg:boundedBy>";
+  return bounded_by(name, mark + geometry(property, members));
 }
 std::string roofs_and_wall(const std::string& of_roof = "", const std::string& of_wall = "") {
   return surface("RoofSurface", of_roof, polygon(roof_1, "p1") + polygon(roof_2, "p2")) +
@@ -68,6 +63,13 @@ std::string surfaces(const std::string& numbers, const std::string& form = form_
 
 std::string marked_gml(const std::string& text, const IngestSettings& settings = {}) {
   return marked_text("a.gml", text, settings);
+}
+
+/// Surfaces are numbered as the marks of a building's content say, "{0+1}"; without these, it is the file.
+void expect_numbers(const std::string& content, const IngestSettings& settings = {}) {
+  static const std::regex mark("\\{([0-9+]+)\\}");
+  EXPECT_EQ(marked_gml(file_with(std::regex_replace(content, mark, "")), settings),
+            file_with(id() + std::regex_replace(content, mark, surfaces("$1"))));
 }
 
 TEST(CityGmlPlaces, AreWhereTheSchemaHasGenericAttributes) {
@@ -90,7 +92,7 @@ TEST(CityGmlPlaces, AreBeforeAnAppearance) {
 
 TEST(CityGmlPlaces, HaveThePrefixOfTheFileOrDeclareOne) {
   const std::string space = "=\"http://www.opengis.net/citygml/generics/2.0\"";
-  const auto text = [](const std::string& spaces) { return model(spaces_of_version_2 + spaces, member(roofs_and_wall())); };
+  const auto text = [](const std::string& spaces) { return model(spaces_of_version_2 + spaces, building(roofs_and_wall())); };
   const std::string declared =
       "<gen:doubleAttribute xmlns:gen" + space + " name=\"@\"><gen:value>#</gen:value></gen:doubleAttribute>";
   // Without one, where "gen" stands for something else, and where the prefix cannot be written in each encoding
@@ -151,127 +153,93 @@ TEST(CityGmlPlaces, AreNowhereInWhatIsPackedOrWide) {
   EXPECT_TRUE(packed.city.origin_of(packed.city.buildings().front()).empty());
 }
 
+const std::string numbered = roofs_and_wall("{0+1}", "{2}");
+
 TEST(CityGmlOrigins, SemanticSurfacesAreNumberedBeforeTheSolid) {
   // The solid, which comes first, refers to one surface and repeats another with other corners first; its floor is its own
   const std::string copy = "1020 2010 8 1010 2010 8 1010 2000 8 1020 2000 8 1020 2010 8";
   const std::string floor = "1000 2000 0 1000 2010 0 1020 2010 0 1020 2000 0 1000 2000 0";
-  const std::string of_solid = solid(reference("p1") + polygon(copy) + reference("p3") + polygon(floor));
-  EXPECT_EQ(marked_gml(file_with(of_solid + roofs_and_wall())),
-            file_with(id() + of_solid + roofs_and_wall(surfaces("0+1"), surfaces("2"))));
+  expect_numbers(solid("2", reference("p1") + polygon(copy) + reference("p3") + polygon(floor)) + numbered);
 }
 
 TEST(CityGmlOrigins, APolygonThatASolidHoldsIsTheSurfaceThatRefersToIt) {
-  const std::string of_solid = solid(polygon(wall, "p3") + polygon(roof_2, "p2") + polygon(roof_1, "p1"));
-  const auto text = [](const std::string& roof, const std::string& below) {
-    return surface("RoofSurface", roof, reference("p1") + reference("p2")) +
-           surface("WallSurface", below, reference("p3") + reference("p1"));
-  };
-  EXPECT_EQ(marked_gml(file_with(of_solid + text("", ""))), file_with(id() + of_solid + text(surfaces("0+1"), surfaces("2"))));
+  expect_numbers(solid("2", polygon(wall, "p3") + polygon(roof_2, "p2") + polygon(roof_1, "p1")) +
+                 surface("RoofSurface", "{0+1}", reference("p1") + reference("p2")) +
+                 surface("WallSurface", "{2}", reference("p3") + reference("p1")));
 }
 
 TEST(CityGmlOrigins, APolygonThatTwoSurfacesHoldIsOfBoth) {
-  const auto text = [](const std::string& first, const std::string& second) {
-    return surface("RoofSurface", first, polygon(roof_1) + polygon(wall)) +
-           surface("RoofSurface", second, polygon(roof_1) + polygon(roof_2));
-  };
-  EXPECT_EQ(marked_gml(file_with(text("", ""))), file_with(id() + text(surfaces("0+1"), surfaces("0+3"))));
+  expect_numbers(surface("RoofSurface", "{0+1}", polygon(roof_1) + polygon(wall)) +
+                 surface("RoofSurface", "{0+3}", polygon(roof_1) + polygon(roof_2)));
 }
 
 TEST(CityGmlOrigins, UnusablePolygonsHaveNumbersAndThoseWithCurvesHaveNone) {
   const std::string line = polygon("1 2 3 4 5 6 1 2 3"), word = polygon("1000 two 3 4 5 6 7 8 9 1000 2 3");
-  const std::string curve =
-      "<gml:surfaceMember><gml:Polygon><gml:exterior><gml:Ring><gml:curveMember/></gml:Ring></gml:exterior></gml:Polygon>"
-      "</gml:surfaceMember>";
-  const auto text = [&](const std::string& roof, const std::string& below) {
-    return surface("RoofSurface", roof, curve + line + polygon(roof_1) + word + polygon(roof_2)) +
-           surface("WallSurface", below, polygon(wall));
-  };
-  EXPECT_EQ(marked_gml(file_with(text("", ""))), file_with(id() + text(surfaces("1+3"), surfaces("4"))));
+  const std::string curve = within("gml:surfaceMember gml:Polygon gml:exterior gml:Ring", "<gml:curveMember/>");
+  expect_numbers(surface("RoofSurface", "{1+3}", curve + line + polygon(roof_1) + word + polygon(roof_2)) +
+                 surface("WallSurface", "{4}", polygon(wall)));
 }
 
 TEST(CityGmlOrigins, AreThoseOfTheLevelOfDetailThatIsRead) {
   const auto text = [](const std::string& fine, const std::string& coarse) {
     return surface("WallSurface", fine, polygon(wall), "lod3MultiSurface") + surface("WallSurface", coarse, polygon(wall));
   };
-  EXPECT_EQ(marked_gml(file_with(text("", ""))), file_with(id() + text(surfaces("0"), "")));
-  EXPECT_EQ(marked_gml(file_with(text("", "")), in_lod(2)), file_with(id() + text("", surfaces("0"))));
+  expect_numbers(text("{0}", ""));
+  expect_numbers(text("", "{0}"), in_lod(2));
 }
 
 TEST(CityGmlOrigins, PartsAndInstallationsHaveTheirSurfaces) {
-  const auto text = [](const std::string& of_part, const std::string& of_roof, const std::string& of_installation) {
-    return "<bldg:outerBuildingInstallation><bldg:BuildingInstallation>" + of_installation +
-           geometry("lod2Geometry", polygon(wall)) +
-           "</bldg:BuildingInstallation></bldg:outerBuildingInstallation><bldg:consistsOfBuildingPart><bldg:BuildingPart>" +
-           of_part + surface("RoofSurface", of_roof, polygon(roof_1)) + geometry("lod2MultiSurface", polygon(roof_2)) +
-           "</bldg:BuildingPart></bldg:consistsOfBuildingPart>";
-  };
   // Surfaces of the part without semantics come behind all others. The floor makes the level of the building itself eligible
-  const auto floor = [](const std::string& mark) {
-    return surface("GroundSurface", mark, polygon("1000 2000 0 1000 2010 0 1020 2000 0 1000 2000 0"));
-  };
-  EXPECT_EQ(marked_gml(file_with(floor("") + text("", "", ""))),
-            file_with(id() + floor(surfaces("0")) + text(surfaces("2+3"), surfaces("2"), surfaces("1"))));
+  expect_numbers(
+      surface("GroundSurface", "{0}", polygon("1000 2000 0 1000 2010 0 1020 2000 0 1000 2000 0")) +
+      within("bldg:outerBuildingInstallation bldg:BuildingInstallation", "{1}" + geometry("lod2Geometry", polygon(wall))) +
+      within("bldg:consistsOfBuildingPart bldg:BuildingPart",
+             "{2+3}" + surface("RoofSurface", "{2}", polygon(roof_1)) + geometry("lod2MultiSurface", polygon(roof_2))));
 }
 
 TEST(CityGmlOrigins, AWindowIsASurfaceOfItsOwn) {
-  const std::string window =
-      "<bldg:opening><bldg:Window>@" + geometry("lod3MultiSurface", polygon(wall)) + "</bldg:Window></bldg:opening>";
-  const auto text = [&](const std::string& of_roof, const std::string& of_window) {
-    std::string inner = window;
-    inner.replace(inner.find('@'), 1, of_window);
-    return surface("RoofSurface", of_roof, polygon(roof_1) + polygon(roof_2), "lod3MultiSurface") +
-           "<bldg:boundedBy><bldg:WallSurface>" + inner + "</bldg:WallSurface></bldg:boundedBy>";
-  };
-  EXPECT_EQ(marked_gml(file_with(text("", ""))), file_with(id() + text(surfaces("0+1"), surfaces("2"))));
+  expect_numbers(
+      surface("RoofSurface", "{0+1}", polygon(roof_1) + polygon(roof_2), "lod3MultiSurface") +
+      within("bldg:boundedBy bldg:WallSurface bldg:opening bldg:Window", "{2}" + geometry("lod3MultiSurface", polygon(wall))));
 }
 
 TEST(CityGmlOrigins, SurfacesThatStandInAnotherBuildingHaveNoSemanticsHere) {
   const auto text = [](const std::string& b, const std::string& roof, const std::string& c, const std::string& of_wall) {
-    return model(
-        std::string(spaces_of_version_2) + generics_2,
-        member(b + surface("WallSurface", "", reference("w")) + surface("RoofSurface", roof, polygon(roof_1) + polygon(roof_2))) +
-            member(c + surface("WallSurface", of_wall, polygon(wall, "w")), "c"));
+    return model(std::string(spaces_of_version_2) + generics_2,
+                 building(b + surface("WallSurface", "", reference("w")) +
+                          surface("RoofSurface", roof, polygon(roof_1) + polygon(roof_2))) +
+                     building(c + surface("WallSurface", of_wall, polygon(wall, "w")), "c"));
   };
   EXPECT_EQ(marked_gml(text("", "", "", "")), text(id(), surfaces("1+2"), id("c"), surfaces("0")));
 }
 
 TEST(CityGmlOrigins, APrototypeIsOfItsInstallationAndOfNoSemanticSurface) {
-  const std::string prototype =
-      "<bldg:lod2ImplicitRepresentation><ImplicitGeometry><relativeGMLGeometry><gml:MultiSurface>" +
-      polygon("0 0 0 3 0 0 3 1 0 0 1 0 0 0 0") +
-      "</gml:MultiSurface></relativeGMLGeometry><referencePoint><gml:Point><gml:pos>1000 2000 8</gml:pos></gml:Point>"
-      "</referencePoint></ImplicitGeometry></bldg:lod2ImplicitRepresentation>";
-  const auto text = [&](const std::string& of_roof, const std::string& of_wall, const std::string& of_installation) {
-    return roofs_and_wall(of_roof, of_wall) + "<bldg:boundedBy><bldg:WallSurface><bldg:opening><bldg:Window>" + prototype +
-           "</bldg:Window></bldg:opening></bldg:WallSurface></bldg:boundedBy>"
-           "<bldg:outerBuildingInstallation><bldg:BuildingInstallation>" +
-           of_installation + prototype + "</bldg:BuildingInstallation></bldg:outerBuildingInstallation>";
+  const auto prototype = [](const std::string& x) {
+    return within("bldg:lod2ImplicitRepresentation ImplicitGeometry",
+                  within("relativeGMLGeometry gml:MultiSurface", polygon("0 0 0 3 0 0 3 1 0 0 1 0 0 0 0")) +
+                      within("referencePoint gml:Point gml:pos", x + " 2000 8"));
   };
-  // The two lie in the same place: the second is the first once more
-  EXPECT_EQ(marked_gml(file_with(text("", "", ""))), file_with(id() + text(surfaces("0+1"), surfaces("2"), "")));
-  std::string apart = file_with(text("", "", "")),
-              expected = file_with(id() + text(surfaces("0+1"), surfaces("2"), surfaces("4")));
-  for (std::string* file : {&apart, &expected}) file->replace(file->rfind("1000 2000 8<"), 4, "1100");
-  EXPECT_EQ(marked_gml(apart), expected);
+  const auto text = [&](const std::string& mark, const std::string& x) {
+    return numbered + within("bldg:boundedBy bldg:WallSurface bldg:opening bldg:Window", prototype("1000")) +
+           within("bldg:outerBuildingInstallation bldg:BuildingInstallation", mark + prototype(x));
+  };
+  // Where the two lie in the same place, the second is the first once more
+  expect_numbers(text("", "1000"));
+  expect_numbers(text("{4}", "1100"));
 }
 
 TEST(CityGmlOrigins, WhatIsInsideTheBuildingHasNone) {
-  const std::string inside = "<bldg:interiorRoom><bldg:Room>" + surface("WallSurface", "", polygon(wall)) +
-                             "</bldg:Room></bldg:interiorRoom><bldg:buildingInstallation><bldg:BuildingInstallation>" +
-                             geometry("lod2MultiSurface", polygon(wall)) +
-                             "<bldg:relationToConstruction>inside</bldg:relationToConstruction>"
-                             "</bldg:BuildingInstallation></bldg:buildingInstallation>";
-  EXPECT_EQ(marked_gml(file_with(inside + roofs_and_wall())),
-            file_with(id() + inside + roofs_and_wall(surfaces("0+1"), surfaces("2"))));
+  expect_numbers(within("bldg:interiorRoom bldg:Room", surface("WallSurface", "", polygon(wall))) +
+                 within("bldg:buildingInstallation bldg:BuildingInstallation",
+                        geometry("lod2MultiSurface", polygon(wall)) + within("bldg:relationToConstruction", "inside")) +
+                 numbered);
 }
 
 TEST(CityGmlOrigins, AFootprintGivesSurfacesToItsPart) {
-  const auto text = [](const std::string& of_part) {
-    return "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" + of_part + "<bldg:measuredHeight>8</bldg:measuredHeight>" +
-           geometry("lod0FootPrint", polygon("1000 2000 0 1010 2000 0 1010 2010 0 1000 2000 0")) +
-           "</bldg:BuildingPart></bldg:consistsOfBuildingPart>";
-  };
-  EXPECT_EQ(marked_gml(file_with(text("")), in_lod(0)), file_with(id() + text(surfaces("0+1+2+3+4"))));
+  expect_numbers(within("bldg:consistsOfBuildingPart bldg:BuildingPart",
+                        "{0+1+2+3+4}" + within("bldg:measuredHeight", "8") +
+                            geometry("lod0FootPrint", polygon("1000 2000 0 1010 2000 0 1010 2010 0 1000 2000 0"))),
+                 in_lod(0));
 }
 
 }  // namespace
