@@ -8,7 +8,6 @@ Ends with 77 where Slurm is not installed: scripts/install-dependencies slurm.
 """
 
 import argparse
-import filecmp
 import getpass
 import os
 import shutil
@@ -160,11 +159,9 @@ PartitionName=main Nodes=localhost Default=YES State=UP
 
 
 def differences(a: Path, b: Path) -> list[str]:
-    if a.is_file():
-        return [] if filecmp.cmp(a, b, shallow=False) else [str(b)]
-    names_a, names_b = ({p.relative_to(f) for p in f.rglob("*") if p.is_file()} for f in (a, b))
-    wrong = [str(n) for n in names_a ^ names_b]
-    return wrong + [str(n) for n in names_a & names_b if not filecmp.cmp(a / n, b / n, shallow=False)]
+    """What two folders, or two files, do not have in common."""
+    compared = subprocess.run(["diff", "--recursive", "--brief", a, b], capture_output=True, text=True)
+    return (compared.stdout + compared.stderr).splitlines()
 
 
 def kill_in_array(slurm: Slurm, script: Path, arguments: list[str], merge: list[str], output: Path) -> tuple[str, int]:

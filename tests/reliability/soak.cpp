@@ -102,15 +102,6 @@ class Tally {
   std::uint64_t bits_ = 0xcbf29ce484222325;
 };
 
-enum class Receivers { windows, tiles, points, roofs, walls };
-
-/// One way to evaluate all cells.
-struct Work {
-  const char* name;
-  Receivers receivers;
-  EvaluationSettings settings;
-};
-
 EvaluationSettings settings_of(Engine engine, bool bounds, Quantities further = {}) {
   EvaluationSettings settings;
   settings.engine = engine;
@@ -119,31 +110,6 @@ EvaluationSettings settings_of(Engine engine, bool bounds, Quantities further = 
   settings.rays = 100;
   settings.further = std::move(further);
   return settings;
-}
-
-/// Every kind of receivers by every engine, and each further quantity, but for the distances of horizons: they need a scene of
-/// the whole city, which a limit of memory refuses.
-std::vector<Work> all_works() {
-  using enum Engine;
-  using enum Receivers;
-  const Quantities shares{.svf_solid = true, .directional = true, .hidden = true};
-  const Quantities patches{.horizons = 36, .sky_patches = SkyPatchSet::tregenza};
-  const Quantities sunshine{.sun = {{{Angle::degrees(135.0), Angle::degrees(30.0), 1.0},
-                                     {Angle::degrees(180.0), Angle::degrees(50.0), 2.0},
-                                     {Angle::degrees(240.0), Angle::degrees(15.0), 1.0}}}};
-  return {{"windows, auto", windows, settings_of(automatic, false)},
-          {"windows, auto, bounds", windows, settings_of(automatic, true)},
-          {"windows, rays", windows, settings_of(rays, false)},
-          {"tiles, horizon, bounds", tiles, settings_of(horizon, true)},
-          {"tiles, auto, shares", tiles, settings_of(automatic, false, shares)},
-          {"tiles, rays, bounds", tiles, settings_of(rays, true)},
-          {"points, auto, patches", points, settings_of(automatic, false, patches)},
-          {"points, horizon, sunshine", points, settings_of(horizon, false, sunshine)},
-          {"points, rays, bounds", points, settings_of(rays, true, shares)},
-          {"roofs, auto, bounds", roofs, settings_of(automatic, true)},
-          {"roofs, rays, sunshine", roofs, settings_of(rays, false, sunshine)},
-          {"walls, horizon", walls, settings_of(horizon, false, shares)},
-          {"walls, auto, bounds", walls, settings_of(automatic, true)}};
 }
 
 /// Calls `use` for the windows that a raster is divided into.
@@ -198,63 +164,33 @@ class Soak {
     }
   }
 
-  [[nodiscard]] Tally evaluate(const Work& work) const {
-    try {
-      return tally_of(work);
-    } catch (const Error& error) {
-      throw std::runtime_error(std::string(work.name) + ": " + error.what());
-    }
-  }
-
- private:
-  [[nodiscard]] Tally tally_of(const Work& work) const {
-    Tally tally;
-    switch (work.receivers) {
-      case Receivers::windows:
-        evaluate_windows(work, tally);
-        break;
-      case Receivers::tiles:
-        evaluate_tiles(work, tally);
-        break;
-      case Receivers::points:
-        evaluate_rows(work, tally);
-        break;
-      case Receivers::roofs:
-        evaluate_all_surfaces(work, SurfaceChoice::roofs, tally);
-        break;
-      case Receivers::walls:
-        evaluate_all_surfaces(work, SurfaceChoice::walls, tally);
-        break;
-    }
-    return tally;
-  }
-
-  void evaluate_windows(const Work& work, Tally& tally) const {
+  void evaluate_windows(const EvaluationSettings& settings, Tally& tally) const {
     for_each_window(plan_, [&](const RasterWindow& window) {
-      const Raster raster = evaluate_window(package_, plan_, window, {}, work.settings, run_);
+      const Raster raster = evaluate_window(package_, plan_, window, {}, settings, run_);
       tally.add(raster.svf), tally.add(raster.low), tally.add(raster.high), tally.add(raster.summary);
     });
   }
 
-  void evaluate_tiles(const Work& work, Tally& tally) const {
+  void evaluate_tiles(const EvaluationSettings& settings, Tally& tally) const {
     const auto take = [&](const RasterTile& tile) {
       tally.add(tile.svf), tally.add(tile.low), tally.add(tile.high);
       for (const std::vector<float>& band : tile.further) tally.add(band);
     };
-    tally.add(evaluate_raster(package_, plan_, {}, work.settings, take, run_));
+    tally.add(evaluate_raster(package_, plan_, {}, settings, take, run_));
   }
 
   /// A run for each row of cells.
-  void evaluate_rows(const Work& work, Tally& tally) const {
+  void evaluate_rows(const EvaluationSettings& settings, Tally& tally) const {
     for (const Places& row : rows_) {
       const Points points{row.x_m, row.y_m, {}, row.azimuth, row.tilt};
-      const PointAnswers answers = evaluate_points(package_, points, {}, work.settings, run_);
+      const PointAnswers answers = evaluate_points(package_, points, {}, settings, run_);
       tally.add(answers.svf), tally.add(answers.low), tally.add(answers.high), tally.add(answers.further);
       tally.add(answers.summary);
     }
   }
 
-  void evaluate_all_surfaces(const Work& work, SurfaceChoice choice, Tally& tally) const {
+  template <SurfaceChoice choice>
+  void evaluate_all_surfaces(const EvaluationSettings& given, Tally& tally) const {
     constexpr double not_answered = -1.0, spacing_m = 10.0;
     const auto take = [&](std::size_t, std::span<const SurfacePoint> points) {
       for (const SurfacePoint& point : points) {
@@ -262,7 +198,7 @@ class Soak {
         tally.add(point.further);
       }
     };
-    EvaluationSettings settings = work.settings;
+    EvaluationSettings settings = given;
     settings.region = stripes_;
     RunSettings run = run_;
     run.memory_limit_mib.reset();
@@ -271,6 +207,7 @@ class Soak {
     tally.add(means.summary);
   }
 
+ private:
   Package package_;
   RasterPlan plan_;
   RunSettings run_;
@@ -280,15 +217,39 @@ class Soak {
   std::shared_ptr<const Region> stripes_;
 };
 
-class Clock {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+/// One way to evaluate all cells.
+struct Work {
+  const char* name;
+  void (Soak::*evaluate)(const EvaluationSettings&, Tally&) const;
+  EvaluationSettings settings;
 };
+
+/// Every kind of receivers by every engine, and each further quantity, but for the distances of horizons: they need a scene of
+/// the whole city, which a limit of memory refuses.
+std::vector<Work> all_works() {
+  using enum Engine;
+  const auto windows = &Soak::evaluate_windows, tiles = &Soak::evaluate_tiles, points = &Soak::evaluate_rows,
+             roofs = &Soak::evaluate_all_surfaces<SurfaceChoice::roofs>,
+             walls = &Soak::evaluate_all_surfaces<SurfaceChoice::walls>;
+  const Quantities shares{.svf_solid = true, .directional = true, .hidden = true};
+  const Quantities patches{.horizons = 36, .sky_patches = SkyPatchSet::tregenza};
+  const Quantities sunshine{.sun = {{{Angle::degrees(135.0), Angle::degrees(30.0), 1.0},
+                                     {Angle::degrees(180.0), Angle::degrees(50.0), 2.0},
+                                     {Angle::degrees(240.0), Angle::degrees(15.0), 1.0}}}};
+  return {{"windows, auto", windows, settings_of(automatic, false)},
+          {"windows, auto, bounds", windows, settings_of(automatic, true)},
+          {"windows, rays", windows, settings_of(rays, false)},
+          {"tiles, horizon, bounds", tiles, settings_of(horizon, true)},
+          {"tiles, auto, shares", tiles, settings_of(automatic, false, shares)},
+          {"tiles, rays, bounds", tiles, settings_of(rays, true)},
+          {"points, auto, patches", points, settings_of(automatic, false, patches)},
+          {"points, horizon, sunshine", points, settings_of(horizon, false, sunshine)},
+          {"points, rays, bounds", points, settings_of(rays, true, shares)},
+          {"roofs, auto, bounds", roofs, settings_of(automatic, true)},
+          {"roofs, rays, sunshine", roofs, settings_of(rays, false, sunshine)},
+          {"walls, horizon", walls, settings_of(horizon, false, shares)},
+          {"walls, auto, bounds", walls, settings_of(automatic, true)}};
+}
 
 void tell(double seconds, std::size_t passes, std::uint64_t receivers, const ProcessSample& sample) {
   std::printf("%6.0f s: %zu passes, %.1f million receivers; ", seconds, passes, 1e-6 * static_cast<double>(receivers));
@@ -309,7 +270,12 @@ void evaluate_pass(const Soak& soak, const std::vector<Work>& works, std::vector
   const std::size_t before = HeldMemory::now_bytes();
   const HeldMemory held;
   for (std::size_t n = 0; n < works.size(); ++n) {
-    const Tally tally = soak.evaluate(works[n]);
+    Tally tally;
+    try {
+      (soak.*works[n].evaluate)(works[n].settings, tally);
+    } catch (const Error& error) {
+      throw std::runtime_error(std::string(works[n].name) + ": " + error.what());
+    }
     passes.receivers += tally.receivers;
     if (passes.samples.empty()) first.push_back(tally);
     if (tally != first[n])
@@ -323,27 +289,26 @@ Passes evaluate_for(const Options& options) {
   constexpr double between_lines_s = 60.0;
   const Soak soak(options);
   const std::vector<Work> works = all_works();
-  const Clock clock;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [begin] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
   double next_line_s = 0.0;
   std::vector<Tally> first;
   Passes passes;
   const auto is_over = [&] {
-    return options.passes > 0 ? passes.samples.size() >= options.passes : clock.seconds() >= options.seconds;
+    return options.passes > 0 ? passes.samples.size() >= options.passes : seconds() >= options.seconds;
   };
   while (!is_over() || passes.samples.size() < 3) {
     evaluate_pass(soak, works, first, passes);
     const bool is_last = is_over();
-    if (clock.seconds() < next_line_s && !is_last) continue;
-    tell(clock.seconds(), passes.samples.size(), passes.receivers, passes.samples.back());
-    next_line_s += between_lines_s * (1.0 + std::floor((clock.seconds() - next_line_s) / between_lines_s));
+    if (seconds() < next_line_s && !is_last) continue;
+    tell(seconds(), passes.samples.size(), passes.receivers, passes.samples.back());
+    next_line_s += between_lines_s * (1.0 + std::floor((seconds() - next_line_s) / between_lines_s));
   }
   return passes;
 }
 
 double largest(std::span<const ProcessSample> samples, double ProcessSample::*figure) {
-  double found = 0.0;
-  for (const ProcessSample& sample : samples) found = std::max(found, sample.*figure);
-  return found;
+  return std::ranges::max(samples, {}, figure).*figure;
 }
 
 /// The first third of the passes fills what is kept from then on, and is compared with nothing.
