@@ -61,6 +61,21 @@ export async function atRest(page) {
   return now;
 }
 
+/** A page of an address, or the one that is given, once it is at rest. */
+export async function opened(context, address, page = null) {
+  page ??= await context.newPage();
+  await page.goto(address);
+  await ready(page);
+  await atRest(page);
+  return page;
+}
+
+/** Chooses the place in the middle of the window. */
+export async function chooseMiddle(page) {
+  await page.focus("#city");
+  await page.keyboard.press("Enter");
+}
+
 /** The address of a page, which it writes some time after the last change, once it has a text. */
 export async function linkWith(page, text) {
   await page.waitForFunction((wanted) => decodeURIComponent(location.hash).includes(wanted), text);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the page says when something is wrong. Damaged and exported packages are the mock's.
-import { ready, atRest, state, until } from "./browser.mjs";
+import { atRest, chooseMiddle, opened, ready, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 import { startMock } from "./mock_server.mjs";
 
@@ -13,13 +13,9 @@ const banner = async (page) => {
 
 export const failureTests = {
   async "a stopped server is told, and tried again"({ start, context }) {
-    const server = await start(), page = await context.newPage();
-    await page.goto(server.url);
-    await ready(page);
-    await atRest(page);
+    const server = await start(), page = await opened(context, server.url);
     await server.stop();
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    await chooseMiddle(page);
     expect((await banner(page)).startsWith("The server does not answer; start farlod-view again."), "the banner says something else");
     await Promise.all([page.waitForEvent("requestfailed"), page.click("#retry")]);
     await banner(page);
@@ -49,12 +45,8 @@ export const failureTests = {
   },
 
   async "exported files show the values of facets"({ context }) {
-    const server = await startMock({ canAnswer: false }), page = await context.newPage();
-    await page.goto(server.url);
-    await ready(page);
-    await atRest(page);
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    const server = await startMock({ canAnswer: false }), page = await opened(context, server.url);
+    await chooseMiddle(page);
     const { picked } = await until(page, "the place", (now) => now.picked !== null);
     expectEqual(await page.textContent("#value"), picked.svf.toFixed(3), "the value");
     expect(await page.isHidden("#sky") && (await page.isHidden("#ask-cell")) && (await page.isHidden("#banner")), "something is offered that nobody can answer");
@@ -79,11 +71,8 @@ export const failureTests = {
     const page = await context.newPage();
     await page.route("**/at?*", (route) => route.fulfill({ json: { svf: null, text: null, low: null, high: null, x_m: 0, y_m: 0, z_m: 0, cell: null, seconds: 0.001 } }));
     await page.route("**/hemisphere?*", (route) => route.fulfill({ status: 204 }));
-    await page.goto(url);
-    await ready(page);
-    await atRest(page);
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    await opened(context, url, page);
+    await chooseMiddle(page);
     await until(page, "the answer", ({ answer }) => answer === "no data");
     await page.waitForFunction(() => document.getElementById("fisheye").getAttribute("aria-label").includes("no data"));
     expectEqual(await page.textContent("#value"), "no data", "the value");
@@ -95,11 +84,8 @@ export const failureTests = {
   async "a refusal is told where the value would be"({ url, context }) {
     const page = await context.newPage();
     await page.route("**/at?*", (route) => route.fulfill({ status: 500, json: { error: "The tile of the cell 3, 4 is damaged." } }));
-    await page.goto(url);
-    await ready(page);
-    await atRest(page);
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    await opened(context, url, page);
+    await chooseMiddle(page);
     await page.waitForFunction(() => document.getElementById("value-note").textContent.length > 0);
     expectEqual(await page.textContent("#value-note"), "The tile of the cell 3, 4 is damaged.", "the note");
     expectEqual(await page.textContent("#value"), "–", "the value");

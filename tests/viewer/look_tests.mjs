@@ -3,7 +3,7 @@
 //
 // What is seen when the page opens.
 import { readFileSync, writeFileSync } from "node:fs";
-import { decoded, differing, pixels, ready, atRest, seen, share, state } from "./browser.mjs";
+import { atRest, decoded, differing, opened, pixels, ready, seen, share, state } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 /** The city, without the cards at its sides. */
@@ -36,9 +36,7 @@ export const lookTests = {
     page.on("console", (message) => { if (message.type() === "error") wrong.push(message.text()); });
     page.on("pageerror", (error) => wrong.push(error.message));
     page.on("request", (request) => { if (!request.url().startsWith(url) && !request.url().startsWith("data:")) wrong.push(request.url()); });
-    await page.goto(url);
-    await ready(page);
-    await atRest(page);
+    await opened(context, url, page);
     expectEqual(wrong, [], "errors and foreign addresses");
   },
 
@@ -52,22 +50,17 @@ export const lookTests = {
   },
 
   async "is coloured by the ramp"({ url, context }) {
-    const page = await context.newPage(), { colours, nodata_colour, origin_m } = await (await fetch(`${url}view.json`)).json();
+    const { colours, nodata_colour, origin_m } = await (await fetch(`${url}view.json`)).json();
     // So near that few pixels are of two facets
-    await page.goto(`${url}#camera=${origin_m.join(",")},400,0,30`);
-    await ready(page);
-    await atRest(page);
+    const page = await opened(context, `${url}#camera=${origin_m.join(",")},400,0,30`);
     await expectColoursOfRamp(page, colours, nodata_colour);
   },
 
   async "looks as the picture that was looked at"({ url, context, isMock, writesPictures }) {
     // The town of farlod-view depends on the machine's arithmetic; the mock's does not
     if (!isMock) return;
-    const page = await context.newPage(), file = new URL("pictures/boxes.png", import.meta.url);
-    const { origin_m } = await (await fetch(`${url}view.json`)).json();
-    await page.goto(`${url}#camera=${origin_m.join(",")},700,30,50`);
-    await ready(page);
-    await atRest(page);
+    const file = new URL("pictures/boxes.png", import.meta.url), { origin_m } = await (await fetch(`${url}view.json`)).json();
+    const page = await opened(context, `${url}#camera=${origin_m.join(",")},700,30,50`);
     if (writesPictures) writeFileSync(file, await page.screenshot({ clip: city }));
     const differ = differing(await pixels(page, city), await decoded(page, readFileSync(file)));
     expect(differ < 0.01, `${(100 * differ).toFixed(2)} % of the pixels differ from tests/viewer/pictures/boxes.png`);
@@ -91,10 +84,8 @@ export const lookTests = {
   },
 
   async "is dark where the system is, until it is switched"({ url, browser }) {
-    const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, colorScheme: "dark" }), page = await context.newPage();
-    await page.goto(url);
-    await ready(page);
-    await atRest(page);
+    const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, colorScheme: "dark" });
+    const page = await opened(context, url);
     const corner = { x: 500, y: 5, width: 60, height: 40 }, isDark = (r, g, b) => r + g + b < 120;
     expect(share(await pixels(page, corner), isDark) === 1, "the surround are not dark");
     await page.click("#theme");
@@ -105,10 +96,7 @@ export const lookTests = {
   },
 
   async "shows and hides layers"({ url, context }) {
-    const page = await context.newPage();
-    await page.goto(url);
-    await ready(page);
-    await atRest(page);
+    const page = await opened(context, url);
     const whole = await pixels(page, city), change = async () => differing(whole, await pixels(page, city));
     for (const layer of ["ground", "roofs", "facades", "grid"]) {
       await page.click(`#layer-${layer}`);

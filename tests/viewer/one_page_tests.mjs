@@ -5,7 +5,7 @@
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { ready, scratch, atRest, state, until } from "./browser.mjs";
+import { chooseMiddle, opened, ready, scratch, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 import { expectColoursOfRamp } from "./look_tests.mjs";
 
@@ -15,10 +15,7 @@ async function openFile(context, address, hash) {
   page.on("console", (message) => { if (message.type() === "error") wrong.push(message.text()); });
   page.on("pageerror", (error) => wrong.push(error.message));
   page.on("request", (request) => { if (request.url().split("#")[0] !== address && !/^(data|blob):/.test(request.url())) wrong.push(request.url()); });
-  await page.goto(address + hash);
-  await ready(page);
-  await atRest(page);
-  return { page, wrong };
+  return { page: await opened(context, address + hash, page), wrong };
 }
 
 export const onePageTests = (program, packageFolder) => ({
@@ -33,8 +30,7 @@ export const onePageTests = (program, packageFolder) => ({
     const { visibleTiles } = await state(page);
     expect(visibleTiles > 0, "no tile is drawn");
     await expectColoursOfRamp(page, colours, nodata_colour);
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    await chooseMiddle(page);
     const { picked } = await until(page, "the place", (now) => now.picked !== null);
     expectEqual(await page.textContent("#value"), picked.svf === null ? "no data" : picked.svf.toFixed(3), "the value of the facet");
     expect(await page.isHidden("#sky") && (await page.isHidden("#banner")), "something is offered that nobody can answer");

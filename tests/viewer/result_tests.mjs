@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results beside the package: with the mock, whose results are known; farlod-view is given the results of the town by its runner.
-import { atRest, linkWith, pixels, ready, seen, share, state, until } from "./browser.mjs";
+import { atRest, linkWith, opened, pixels, seen, share, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 const colourOf = async (url, value) => (await (await fetch(`${url}view.json`)).json()).colours[Math.round(255 * value)];
@@ -12,17 +12,17 @@ const [west, east] = [{ x: 290, y: 150, width: 190, height: 400 }, { x: 520, y: 
 
 /** Straight above the origin of the town, with the ground alone, or with other layers. */
 async function above(context, url, fields, layers = "ground") {
-  const page = await context.newPage(), { origin_m } = await (await fetch(`${url}view.json`)).json();
-  await page.goto(`${url}#camera=${origin_m.join(",")},500,0,0&layers=${layers}&${fields}`);
-  await ready(page);
-  await atRest(page);
-  return page;
+  const { origin_m } = await (await fetch(`${url}view.json`)).json();
+  return opened(context, `${url}#camera=${origin_m.join(",")},500,0,0&layers=${layers}&${fields}`);
 }
 
 async function expectGround(page, clip, colour, what) {
-  const covered = share(await pixels(page, clip), near(colour));
-  expect(covered > 0.5, `${what} cover ${(100 * covered).toFixed(1)} % of the ground`);
+  const part = await covered(page, clip, colour);
+  expect(part > 0.5, `${what} cover ${(100 * part).toFixed(1)} % of the ground`);
 }
+
+const covered = async (page, clip, colour) => share(await pixels(page, clip), near(colour));
+const ticksOf = (page) => page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent));
 
 async function clickAt(page, place) {
   await page.mouse.click(...place);
@@ -61,8 +61,7 @@ export const resultTests = {
     await page.selectOption("#comparison", "difference");
     await atRest(page);
     // All differences are .25, for which a scale to .5 is the least of 1, 2 and 5
-    const ticks = await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent));
-    expectEqual(ticks, ["−.5", "−.25", "0", ".25", ".5"], "the ticks");
+    expectEqual(await ticksOf(page), ["−.5", "−.25", "0", ".25", ".5"], "the ticks");
     await expectGround(page, west, [103, 169, 207], "differences of −.25");
     await expectGround(page, east, [239, 138, 98], "differences of .25");
     await clickAt(page, [330, 350]);
@@ -88,49 +87,46 @@ export const resultTests = {
 
   async "both sides of a divider have the colours of one legend"({ url, context }) {
     const page = await above(context, url, "ground=0&dots=&compared=5&comparison=divider&divider=0.5");
-    expectEqual(await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent)), ["0", "2", "4", "6", "8", "10"], "the ticks");
+    expectEqual(await ticksOf(page), ["0", "2", "4", "6", "8", "10"], "the ticks");
     await expectGround(page, west, await colourOf(url, 0.025), "0.25 of 10, left of the divider,");
     await expectGround(page, east, await colourOf(url, 0.75), "7.5 of 10, right of it,");
   },
 
   async "a table colours the surfaces of buildings"({ url, context }) {
-    const page = await above(context, url, "buildings=6&dots=", "roofs"), roofs = async (clip, colour) => share(await pixels(page, clip), near(colour));
-    expect((await roofs(west, await colourOf(url, 0.875))) > 0.3, "the roofs have other colours than their values");
+    const page = await above(context, url, "buildings=6&dots=", "roofs");
+    expect((await covered(page, west, await colourOf(url, 0.875))) > 0.3, "the roofs have other colours than their values");
     expectEqual(await page.textContent("#ramp-title"), "before.surfaces.csv: svf_mean", "the title of the legend");
     await page.selectOption("#building-values", "9");
     await atRest(page);
-    expect((await roofs(west, await colourOf(url, 0.375))) > 0.1, "the roofs did not change");
-    expect((await roofs(west, [190, 190, 190])) > 0.1, "roofs that the table lacks have a colour");
+    expect((await covered(page, west, await colourOf(url, 0.375))) > 0.1, "the roofs did not change");
+    expect((await covered(page, west, [190, 190, 190])) > 0.1, "roofs that the table lacks have a colour");
     await page.selectOption("#building-values", "-1");
     await atRest(page);
-    expect((await roofs(west, await colourOf(url, 0.375))) < 0.1, "the computed values did not come back");
+    expect((await covered(page, west, await colourOf(url, 0.375))) < 0.1, "the computed values did not come back");
   },
 
   async "tables are compared, and told at a click"({ url, context }) {
     const page = await above(context, url, "buildings=6&buildings-compared=7&comparison=divider&divider=0.5&dots=", "roofs");
-    const covered = async (clip, colour) => share(await pixels(page, clip), near(colour));
-    expect((await covered(west, await colourOf(url, 0.875))) > 0.3, "the first table is not left of the divider");
-    expect((await covered(east, await colourOf(url, 0.875))) < 0.05, "the first table is right of the divider, too");
+    expect((await covered(page, west, await colourOf(url, 0.875))) > 0.3, "the first table is not left of the divider");
+    expect((await covered(page, east, await colourOf(url, 0.875))) < 0.05, "the first table is right of the divider, too");
     await page.selectOption("#comparison", "difference");
     await atRest(page);
     expectEqual(await page.textContent("#ramp-title"), "before.surfaces.csv: svf_mean less after.surfaces.csv: svf_mean", "the title");
-    expect((await covered(west, [178, 24, 43])) > 0.3, "roofs that differ by .5 are not at the end of the scale");
+    expect((await covered(page, west, [178, 24, 43])) > 0.3, "roofs that differ by .5 are not at the end of the scale");
     const roof = await seen(() => roofIn(page), (facts) => facts.length > 0);
     expectEqual(roof, ["before.surfaces.csv: svf_mean", "0.8750", "after.surfaces.csv: svf_mean", "0.3750", "Difference", "0.5000"], "what is told");
-    const again = await context.newPage();
-    await again.goto(await linkWith(page, "buildings-compared=7&comparison=difference"));
-    await ready(again);
+    const again = await opened(context, await linkWith(page, "buildings-compared=7&comparison=difference"));
     expectEqual(await Promise.all(["#building-values", "#buildings-compared", "#comparison"].map((id) => again.inputValue(id))), ["6", "7", "difference"], "the lists");
   },
 
   async "other quantities have the legend, and what they do not colour is paper"({ url, context }) {
-    const page = await above(context, url, "ground=computed&buildings=8&dots=", "ground,roofs"), covered = async (clip, colour) => share(await pixels(page, clip), near(colour));
-    expectEqual(await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent)), ["0", "2", "4", "6", "8", "10"], "the ticks");
-    expect((await covered(west, await colourOf(url, 0.5))) > 0.2, "5 of 10 is not in the middle of the colours");
-    expect((await covered(west, [222, 222, 217])) > 0.2, "the ground keeps colours that the legend does not have");
+    const page = await above(context, url, "ground=computed&buildings=8&dots=", "ground,roofs");
+    expectEqual(await ticksOf(page), ["0", "2", "4", "6", "8", "10"], "the ticks");
+    expect((await covered(page, west, await colourOf(url, 0.5))) > 0.2, "5 of 10 is not in the middle of the colours");
+    expect((await covered(page, west, [222, 222, 217])) > 0.2, "the ground keeps colours that the legend does not have");
     await page.selectOption("#ground-values", "5");
     await atRest(page);
-    expect((await covered(west, await colourOf(url, 0.25))) > 0.2, "hours on the ground are paper beside hours on roofs");
+    expect((await covered(page, west, await colourOf(url, 0.25))) > 0.2, "hours on the ground are paper beside hours on roofs");
   },
 
   async "points and problems are marked, and told when they are clicked at"({ url, context }) {
@@ -155,10 +151,7 @@ export const resultTests = {
 
   async "a link holds what is shown and compared"({ url, context }) {
     const page = await above(context, url, "ground=0&dots=4&compared=1&comparison=divider&divider=0.3");
-    const again = await context.newPage();
-    await again.goto(await linkWith(page, "compared=1"));
-    await ready(again);
-    await atRest(again);
+    const again = await opened(context, await linkWith(page, "compared=1"));
     const chosen = await Promise.all(["#ground-values", "#compared", "#comparison"].map((id) => again.inputValue(id)));
     expectEqual(chosen, ["0", "1", "divider"], "the lists");
     expectEqual([await again.isChecked("#result-3"), await again.isChecked("#result-4")], [false, true], "the boxes");

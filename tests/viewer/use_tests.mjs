@@ -2,16 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Links, keys, touch, and what screen readers are told.
-import { atRest, linkWith, ready, state, until } from "./browser.mjs";
+import { atRest, chooseMiddle, linkWith, opened, state, until } from "./browser.mjs";
 import { expect, expectEqual, expectNear } from "./checks.mjs";
-
-async function open(context, address) {
-  const page = await context.newPage();
-  await page.goto(address);
-  await ready(page);
-  await atRest(page);
-  return page;
-}
 
 /** Relative luminance after WCAG 2. */
 function luminance(css) {
@@ -22,7 +14,7 @@ const contrast = (a, b) => (Math.max(luminance(a), luminance(b)) + 0.05) / (Math
 
 export const useTests = {
   async "a link restores the view"({ url, context }) {
-    const page = await open(context, url);
+    const page = await opened(context, url);
     await page.click("#theme");
     await page.click("#layer-roofs");
     await page.keyboard.press("Escape");
@@ -32,7 +24,7 @@ export const useTests = {
     await page.keyboard.press("Enter");
     const before = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
     await page.selectOption("#projection", "equal-area");
-    const again = await open(context, await linkWith(page, "projection=equal-area"));
+    const again = await opened(context, await linkWith(page, "projection=equal-area"));
     const after = await until(again, "the place of the link", ({ answer, picked }) => picked !== null && answer !== null);
     for (const name of ["distance_m", "bearing_deg", "tilt_deg"]) expectNear(after.camera[name], before.camera[name], 0.01, name);
     for (const axis of ["x", "y", "z"]) expectNear(after.camera.target_local[axis], before.camera.target_local[axis], 0.01, `the target's ${axis}`);
@@ -44,13 +36,13 @@ export const useTests = {
   },
 
   async "a wrong link opens the whole city"({ url, context }) {
-    const page = await open(context, `${url}#camera=1,2,x&place=1&theme=pink&layers=ground,moon`);
-    const home = await open(context, url);
+    const page = await opened(context, `${url}#camera=1,2,x&place=1&theme=pink&layers=ground,moon`);
+    const home = await opened(context, url);
     expectNear((await state(page)).camera.distance_m, (await state(home)).camera.distance_m, 0.01, "the distance");
   },
 
   async "keys move the view"({ url, context }) {
-    const page = await open(context, url), press = async (key) => { await page.keyboard.press(key); return (await atRest(page)).camera; };
+    const page = await opened(context, url), press = async (key) => { await page.keyboard.press(key); return (await atRest(page)).camera; };
     await page.focus("#city");
     const home = (await state(page)).camera, near = await press("+");
     expect(near.distance_m < 0.9 * home.distance_m, "+ does not come nearer");
@@ -71,9 +63,8 @@ export const useTests = {
   },
 
   async "Tab reaches every control"({ url, context }) {
-    const page = await open(context, url), reached = new Set();
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    const page = await opened(context, url), reached = new Set();
+    await chooseMiddle(page);
     await until(page, "the place", ({ picked, answer }) => picked !== null && answer !== null);
     for (let n = 0; n < 40; ++n) {
       reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.tagName));
@@ -84,9 +75,8 @@ export const useTests = {
   },
 
   async "the marker moves by keys"({ url, context }) {
-    const page = await open(context, url);
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    const page = await opened(context, url);
+    await chooseMiddle(page);
     const before = await until(page, "the place", ({ picked, answer }) => picked !== null && answer !== null);
     await page.focus("#marker");
     await page.keyboard.press("Shift+ArrowRight");
@@ -96,9 +86,8 @@ export const useTests = {
   },
 
   async "every control has a name, and texts are legible"({ url, context }) {
-    const page = await open(context, url);
-    await page.focus("#city");
-    await page.keyboard.press("Enter");
+    const page = await opened(context, url);
+    await chooseMiddle(page);
     await page.click("#ask-cell");
     await page.waitForSelector("#cell h2");
     const client = await context.newCDPSession(page), { nodes } = await client.send("Accessibility.getFullAXTree");
@@ -123,7 +112,7 @@ export const useTests = {
 
   async "works by touch on a small screen"({ url, browser }) {
     const context = await browser.newContext({ viewport: { width: 390, height: 760 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
-    const page = await open(context, url), home = (await state(page)).camera;
+    const page = await opened(context, url), home = (await state(page)).camera;
     await page.touchscreen.tap(195, 400);
     await until(page, "the answer", ({ answer }) => answer !== null);
     expect(await page.isVisible("#panel"), "no panel");
