@@ -162,7 +162,7 @@ CanopyAnswers::CanopyAnswers(const PackageReader& package, const CellReceivers& 
     : package_(package),
       cell_(cell),
       further_(further),
-      certainty_(std::move(certainty)),
+      certainty_(certainty),
       stop_(std::move(stop)),
       crowns_(package, cell, further.quantities().canopy, further.azimuths(),
               certainty_.bounds ? merging_for_bounds : CrownMerging(),

@@ -236,7 +236,7 @@ void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizo
 }
 
 void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop) {
-  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, std::move(certainty), std::move(stop));
+  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, certainty, std::move(stop));
 }
 
 void FurtherAnswers::find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,

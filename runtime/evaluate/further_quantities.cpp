@@ -244,6 +244,7 @@ void FurtherQuantities::evaluate(const ProfiledPacket& packet, std::span<float> 
   FARLOD_EXPECTS(columns.count() == size_);
 }
 
+// NOLINTNEXTLINE(readability-convert-member-functions-to-static): rows of the table hold members
 void FurtherQuantities::add_hidden(const ProfiledPacket& packet, QuantityColumns& columns) const {
   Lanes near, far;
   for (std::size_t l = 0; l < packet_lanes; ++l) {

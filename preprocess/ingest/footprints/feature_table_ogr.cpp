@@ -109,7 +109,8 @@ bool PartsOfLayer::fill(const OGRGeometry& outline) const {
   const auto first =
       std::lower_bound(parts_.begin(), parts_.end(), box.MinX, [](const Part& part, double x) { return part.inside.x < x; });
   for (auto part = first; part != parts_.end() && part->inside.x <= box.MaxX; ++part)
-    if (box.MinY <= part->inside.y && part->inside.y <= box.MaxY && OGRPoint(part->inside.x, part->inside.y).Within(&outline))
+    if (box.MinY <= part->inside.y && part->inside.y <= box.MaxY &&
+        OGRPoint(part->inside.x, part->inside.y).Within(&outline) != 0)
       filled += part->area;
   return filled >= most_of_it * area_of(outline) && filled > 0.0;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include "base/lower_case.hpp"
 
@@ -30,7 +29,7 @@ bool is_affirmed(const std::optional<std::string>& value) { return value && !is_
 
 bool is_underground(const TagLookup& tag) {
   const auto location = tag("location"), layer = tag("layer");
-  return location == "underground" || (layer && std::atoi(layer->c_str()) < 0) || is_true(tag("is_underground"));
+  return location == "underground" || (layer && layer->starts_with('-')) || is_true(tag("is_underground"));
 }
 
 /// Overture's table of parts, which has no column that buildings alone have.

@@ -222,9 +222,9 @@ std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::
 }
 
 std::optional<FootprintHeights::Height> FootprintHeights::height_above_base(const FieldLookup& value_of) const {
-  const auto height = length_in(heights_, value_of);
+  auto height = length_in(heights_, value_of);
   if (height && is_height(height->value_m)) return height;
-  const auto storeys = storeys_in(storeys_, value_of);
+  auto storeys = storeys_in(storeys_, value_of);
   if (storeys && is_height(storeys->value_m)) return storeys;
   if (default_height_m_)
     return Height{*default_height_m_, "the default height is " + std::to_string(*default_height_m_),
