@@ -38,7 +38,7 @@ class EvaluationCounter {
 /// What is asked of all cells, and what they share.
 struct Evaluation {
   using City = std::shared_ptr<const WholeCityOnDemand>;
-  Evaluation(const PackageReader& package, const SkySettings& settings, std::stop_token stop, City city);
+  Evaluation(const PackageReader& p, const SkySettings& s, std::stop_token t, City c);
 
   const PackageReader& package;
   SkySettings settings;

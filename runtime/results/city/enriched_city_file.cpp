@@ -216,7 +216,8 @@ class Enriching {
 
   /// A polygon that the file has twice may be of two semantic surfaces, and both get its values.
   void sort_in(const SurfaceMean& surface, const BuildingOrigin& origin, SurfacesOf& by_semantics, SurfacesOf& by_object) {
-    const auto [first, last] = std::ranges::equal_range(origin.surfaces, surface.surface, {}, &SurfaceOrigin::surface);
+    const auto first = std::ranges::lower_bound(origin.surfaces, surface.surface, {}, &SurfaceOrigin::surface);
+    const auto last = std::ranges::upper_bound(origin.surfaces, surface.surface, {}, &SurfaceOrigin::surface);
     by_object[first == last ? 0 : first->object].push_back(&surface);
     bool has_semantics = false;
     for (auto of = first; of != last; ++of) {
