@@ -89,7 +89,9 @@ def packages_of(paths: Collection[Path]) -> dict[Path, str]:
     # A package may name its file as it was before /lib became a link to /usr/lib
     spelt = {path: {str(path), str(path.resolve()), str(path.resolve()).removeprefix("/usr")} for path in paths}
     lines = output_of("dpkg-query", "--search", *sorted(set().union(*spelt.values())), check=False).splitlines()
-    owners = {path: package.split(":")[0] for package, _, path in (line.partition(": ") for line in lines)}
+    # A package that moves a file of another one is named for it, too, in a line of its own
+    owned = (line.partition(": ") for line in lines if not line.startswith(("diversion by", "local diversion")))
+    owners = {path: package.split(":")[0] for package, _, path in owned}
     found = {path: next((owners[name] for name in sorted(names) if name in owners), "") for path, names in spelt.items()}
     foreign = sorted(str(path) for path, package in found.items() if not package)
     if foreign:
