@@ -14,15 +14,6 @@ using namespace package;
 
 namespace {
 
-/// No city reaches farther from one of its cells than the Earth is wide. What does would be lost on the way to the ray index,
-/// which takes no triangle beyond 1.8e18 and says nothing.
-constexpr float farthest_in_tile_m = 1.3e7F;
-
-/// False for what is not a number, too.
-bool is_on_earth(const Point3f& p) {
-  return std::abs(p.x) <= farthest_in_tile_m && std::abs(p.y) <= farthest_in_tile_m && std::abs(p.z) <= farthest_in_tile_m;
-}
-
 /// −128 is no angle: its tangent would come out on the other side of the vertical.
 bool are_angles(AdjacentSlopes adjacent) {
   return adjacent.left >= AdjacentSlopes::straight_down && adjacent.right >= AdjacentSlopes::straight_down;

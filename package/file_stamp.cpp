@@ -111,7 +111,8 @@ bool are_whole(const std::filesystem::path& package, const package::BlockFiles& 
 
 bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest) {
   return (!manifest.canopy || is_whole(package / package::crowns_file, manifest.canopy->stamp)) &&
-         (!manifest.sources || is_whole(package / package::sources_file, *manifest.sources));
+         (!manifest.sources || is_whole(package / package::sources_file, *manifest.sources)) &&
+         (!manifest.relief || is_whole(package / package::relief_file, *manifest.relief));
 }
 
 }  // namespace farlod

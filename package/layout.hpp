@@ -91,10 +91,12 @@ static_assert(std::endian::native == std::endian::little,
 /// The version of the manifest, and so of the package, that is written: trees (crown.hpp) and the places that surfaces
 /// come from (sources_layout.hpp) are there where the city has them.
 inline constexpr std::uint32_t format_version = 10;
+/// The version of a package that knows the ground beyond its grid (relief.hpp): who does not read that would miss mountains.
+inline constexpr std::uint32_t relief_format_version = 11;
 /// The version of a city with trees, before version 10.
 inline constexpr std::uint32_t canopy_format_version = 9;
 /// The newest one that is read.
-inline constexpr std::uint32_t newest_format_version = format_version;
+inline constexpr std::uint32_t newest_format_version = relief_format_version;
 /// The oldest one that is read.
 inline constexpr std::uint32_t oldest_format_version = 8;
 /// The version of `tiles.bin`, which changes on its own.
@@ -239,11 +241,20 @@ static_assert(sizeof(ExplicitOccluder) == 8);
 
 static_assert(sizeof(HorizonEdge) == 28 && sizeof(AdjacentSlopes) == 2);
 
+/// No city reaches farther from one of its cells than the Earth is wide. What does would be lost on the way to the ray index,
+/// which takes no triangle beyond 1.8e18 and says nothing.
+inline constexpr float farthest_in_tile_m = 1.3e7F;
+/// False for what is not a number, too.
+[[nodiscard]] inline bool is_on_earth(const Point3f& p) {
+  return std::abs(p.x) <= farthest_in_tile_m && std::abs(p.y) <= farthest_in_tile_m && std::abs(p.z) <= farthest_in_tile_m;
+}
+
 /// The folder of a block each of whose cells has a far map (folder_of), and its two files.
 [[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }
 inline constexpr const char* tiles_file = "tiles.bin";
 inline constexpr const char* far_map_file = "far.exr";
 inline constexpr const char* manifest_file = "manifest.json";
+inline constexpr const char* relief_file = "relief.bin";  ///< in the folder of the package
 
 // Channels of far.exr, all half. Either kind has a channel Y, which any viewer shows as a grey picture.
 //

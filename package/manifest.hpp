@@ -174,6 +174,7 @@ struct Manifest {
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
   std::optional<CanopyFile> canopy = {};                      ///< where there are crowns
   std::optional<FileStamp> sources = {};                      ///< of `sources.bin`, where city files have places for attributes
+  std::optional<FileStamp> relief = {};                       ///< of `relief.bin`, where the ground beyond the grid is known
 
   /// Whether each cell has a far map.
   [[nodiscard]] bool is_fully_mapped() const {
@@ -261,6 +262,9 @@ struct ManifestSeal {
     return std::string(before_digits) + number + std::string(after_digits);
   }
 };
+
+/// The version of the format that a package needs.
+[[nodiscard]] inline std::uint32_t version_of(const Manifest& m) { return m.relief ? relief_format_version : format_version; }
 
 /// What users are told of a package.
 [[nodiscard]] inline PackageDescription described(const Manifest& m) {

@@ -85,7 +85,7 @@ std::string sealed(std::string text) {
 }  // namespace
 
 std::string manifest_text(const Manifest& m) {
-  Json j = {{"format", "farlod-package"}, {"version", package::format_version}, {"software", m.software}};
+  Json j = {{"format", "farlod-package"}, {"version", package::version_of(m)}, {"software", m.software}};
   j.update(place_of(m));
   j["settings"] = {{"assign", m.assign}, {"far_map", json_of(m.far_map)}};
   j["inputs"] = inputs_of(m);
@@ -96,6 +96,7 @@ std::string manifest_text(const Manifest& m) {
   for (const package::BlockFiles& b : m.blocks) j["blocks"].push_back(json_of(b));
   if (m.canopy) j["canopy"] = json_of(*m.canopy);
   if (m.sources) j["sources"] = json_of(*m.sources);
+  if (m.relief) j["relief"] = json_of(*m.relief);
   // An id or a name with broken UTF-8 must not end the run
   return sealed(j.dump(1, ' ', false, Json::error_handler_t::replace));
 }

@@ -57,12 +57,31 @@ struct OpenBlock {
   }
 };
 
-/// The file of all crowns, opened when it is first needed, and mapped from then on.
-struct OpenCrowns {
-  std::once_flag once;
-  std::optional<CrownsFile> file;
-  FileIdentity identity;
-  std::atomic<bool> is_open = false;
+/// A file of the whole city, opened when it is first needed, and mapped from then on.
+template <class File>
+class OpenOnDemand {
+ public:
+  /// That of a package whose manifest names it.
+  const File& open(const PackageFolder& folder, const package::Manifest& manifest, const char* name) {
+    std::call_once(once_, [&] {
+      identity_ = identity_of(folder.file(name).path);
+      file_.emplace(folder, manifest);
+      is_open_ = true;
+    });
+    return *file_;
+  }
+  void let_go() const {
+    if (is_open_) file_->let_go();
+  }
+  void require_unchanged(const PackageFolder& folder, const char* name) const {
+    if (is_open_) farlod::require_unchanged(folder.file(name), identity_);
+  }
+
+ private:
+  std::once_flag once_;
+  std::optional<File> file_;
+  FileIdentity identity_;
+  std::atomic<bool> is_open_ = false;
 };
 
 }  // namespace
@@ -72,7 +91,8 @@ struct PackageReader::Impl {
   FileIdentity manifest_identity;       // first, so that a manifest that is replaced meanwhile is noticed
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
-  OpenCrowns open_crowns;
+  OpenOnDemand<CrownsFile> open_crowns;
+  OpenOnDemand<ReliefFile> open_relief;
   std::mutex held_mutex;
   LruCache held;
 
@@ -121,7 +141,7 @@ struct PackageReader::Impl {
     const std::vector<std::size_t> others = held.use(n, bytes_of(n));
     for (const std::size_t other : others) blocks[other].let_go();
     // Those around the blocks that are left come back
-    if (!others.empty() && open_crowns.is_open) open_crowns.file->let_go();
+    if (!others.empty()) open_crowns.let_go();
   }
 
   const BlockTiles& tiles(std::size_t n) {
@@ -160,19 +180,16 @@ struct PackageReader::Impl {
     return open.far_map;
   }
 
-  const CrownsFile& crowns() {
-    std::call_once(open_crowns.once, [&] {
-      open_crowns.identity = identity_of(folder->file(package::crowns_file).path);
-      open_crowns.file.emplace(*folder, manifest);
-      open_crowns.is_open = true;
-    });
-    return *open_crowns.file;
+  MeshView relief() {
+    if (memory) return memory->relief;
+    return manifest.relief ? open_relief.open(*folder, manifest, package::relief_file).mesh() : MeshView{};
   }
 
   void require_unchanged() const {
     if (memory) return;
     farlod::require_unchanged(folder->file(package::manifest_file), manifest_identity);
-    if (open_crowns.is_open) farlod::require_unchanged(folder->file(package::crowns_file), open_crowns.identity);
+    open_crowns.require_unchanged(*folder, package::crowns_file);
+    open_relief.require_unchanged(*folder, package::relief_file);
     for (std::size_t n = 0; n < blocks.size(); ++n) {
       if (blocks[n].has_tiles) farlod::require_unchanged(file_of(n, package::tiles_file), blocks[n].tiles_identity);
       if (blocks[n].has_far_map) farlod::require_unchanged(file_of(n, package::far_map_file), blocks[n].far_map_identity);
@@ -259,8 +276,10 @@ bool PackageReader::has_crowns() const { return !impl_->memory && impl_->manifes
 
 const CrownsFile& PackageReader::crowns() const {
   FARLOD_EXPECTS(has_crowns());
-  return impl_->crowns();
+  return impl_->open_crowns.open(*impl_->folder, impl_->manifest, package::crowns_file);
 }
+
+MeshView PackageReader::relief() const { return impl_->relief(); }
 
 std::span<const Crown> PackageReader::crowns_of(Cell cell) const {
   FARLOD_EXPECTS(grid().cells.contains(cell));

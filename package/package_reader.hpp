@@ -22,6 +22,7 @@
 #include "package/far_map_reader.hpp"
 #include "package/manifest.hpp"
 #include "package/package_folder.hpp"
+#include "package/relief.hpp"
 
 namespace farlod {
 
@@ -51,6 +52,7 @@ struct PackageInMemory {
   package::Manifest manifest;                     ///< sizes and checksums of files do not count
   std::vector<std::span<const std::byte>> tiles;  ///< the bytes of `tiles.bin` of each block, in the order of Grid::blocks()
   std::map<Cell, FarHorizon> far_horizons;        ///< of the cells that will be asked for
+  MeshView relief = {};                           ///< as PackageReader::relief
 };
 
 /// A package, usually on disk. Blocks are mapped and checked against their checksums when they are first asked for, and kept in
@@ -62,7 +64,7 @@ class PackageReader {
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a
   /// block that is not what the manifest says.
   explicit PackageReader(const std::filesystem::path& folder);
-  /// The bytes of the tiles, and what the far maps view, must outlive it. It has no far maps of the kind `box`.
+  /// The bytes of the tiles, and what the far maps view, and the relief must outlive it. It has no far maps of the kind `box`.
   explicit PackageReader(PackageInMemory contents);
   PackageReader(PackageReader&&) noexcept;
   PackageReader& operator=(PackageReader&&) noexcept;
@@ -96,6 +98,10 @@ class PackageReader {
   [[nodiscard]] const CrownsFile& crowns() const;
   /// The crowns whose axes lie in a cell, in the frame of the cell, which must exist; none where there are no trees.
   [[nodiscard]] std::span<const Crown> crowns_of(Cell cell) const;
+
+  /// The ground beyond the grid, in the frame of Relief; empty where none is known. The file is opened when it is first asked
+  /// for.
+  [[nodiscard]] MeshView relief() const;
 
   /// Compares the manifest and all files that were opened with what they were then: mapped memory is what a file is now, so that
   /// what was checked once may have changed. Throws PackageDamaged. Nothing of a package in memory.

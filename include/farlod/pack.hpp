@@ -105,6 +105,9 @@ struct PackSettings {
   std::filesystem::path output;                  ///< the folder to make
   std::optional<std::filesystem::path> terrain;  ///< a raster of ground elevations, any that GDAL reads
   double terrain_offset_m = 0.0;                 ///< added to them, where they count from another datum than the buildings
+  /// More rasters of elevations, of any resolution: beyond the grid of the city, and beyond what `terrain` covers there,
+  /// mountains hide the sky, sunk by the Earth's curvature. Where several have heights, the first counts.
+  std::vector<std::filesystem::path> far_terrains = {};
   Overwrite overwrite = Overwrite::refuse;
   ProblemPolicy problems = ProblemPolicy::pack;
 

@@ -49,7 +49,7 @@ struct RawOptions {
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::optional<std::string> area;
   std::string terrain, height_field, base_field, storeys_field, roof_field, layer, encoding;
-  std::vector<std::string> trees;
+  std::vector<std::string> trees, far_terrains;
   std::string tree_height_field, crown_field, trunk_field, canopy, trunk;
   bool canopy_absolute = false;
   std::string shard;
@@ -117,6 +117,10 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--terrain-offset", o.settings.terrain_offset_m,
                  "Metres added to the terrain, where its elevations count from another datum than the buildings")
       ->check(between(-1000.0, 1000.0))
+      ->group("Input");
+  app.add_option("--far-terrain", raw.far_terrains,
+                 "Raster of elevations around the city, of any resolution: mountains hide the sky")
+      ->type_name(file_value)
       ->group("Input");
 }
 
@@ -270,10 +274,11 @@ Shard shard_in(const std::string& text) {
   }
 }
 
+void require_name(const std::string& name, const char* option) {
+  if (name.empty()) throw CLI::ValidationError(option, "the name is empty: give a file");
+}
+
 void resolve_trees(const RawOptions& raw, TreeSettings& trees) {
-  const auto require_name = [](const std::string& name, const char* option) {
-    if (name.empty()) throw CLI::ValidationError(option, "the name is empty: give a file");
-  };
   for (const std::string& file : raw.trees) {
     require_name(file, "--trees");
     trees.files.emplace_back(file);
@@ -303,6 +308,10 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
+  for (const std::string& file : raw.far_terrains) {
+    require_name(file, "--far-terrain");
+    s.far_terrains.emplace_back(file);
+  }
   resolve_trees(raw, s.trees);
   if (raw.area) s.area = area_in(*raw.area);
   if (!raw.shard.empty()) s.shard = shard_in(raw.shard);

@@ -174,6 +174,9 @@ struct LocatedCity {
 inline constexpr double highest_building_m = 1000.0;
 /// The highest building on the highest mountain (8,849 m); and below the deepest shore (-430 m).
 inline constexpr double highest_elevation_m = 9850.0, lowest_elevation_m = -500.0;
+[[nodiscard]] constexpr bool may_be_elevation(double elevation_m) {
+  return lowest_elevation_m <= elevation_m && elevation_m <= highest_elevation_m;
+}
 
 /// The length of a degree of latitude, to three digits.
 inline constexpr double metres_in_a_degree = 111e3;

@@ -20,9 +20,25 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
     gather(tiles.tiles[n], cells_.cell_at(n));
   }
   first_of_cell_.push_back(static_cast<std::uint32_t>(occluders_.size()));
+  if (!tiles.relief.horizon_edges.empty()) {
+    add_beyond(tiles.relief);
+    return;
+  }
   if (occluders_.empty()) return;
   nodes_.push_back({});
   build(0, cells_);
+}
+
+/// The root divides the city and what lies beyond it.
+void CityHorizon::add_beyond(const Relief& relief) {
+  const auto first = static_cast<std::uint32_t>(occluders_.size());
+  for (const HorizonEdge& e : relief.horizon_edges)
+    occluders_.push_back({{e.a.x, e.a.y, e.a.z}, {e.b.x, e.b.y, e.b.z}, e.adjacent, e.role});
+  nodes_.resize(3);
+  nodes_[0].children = 1;
+  build(1, cells_);
+  build_in_cell(2, beyond_grid, first, static_cast<std::uint32_t>(occluders_.size()) - first);
+  join_children(0);
 }
 
 CityHorizon::CityHorizon(const Grid& grid, PagedArray<OccluderEdge> occluders, PagedArray<Node> nodes)

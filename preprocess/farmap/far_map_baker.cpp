@@ -27,6 +27,15 @@ FarHeightBound::FarHeightBound(const TileSet& tiles, const Grid& grid) : grid_(g
     for (const Point3f& p : tiles.tiles[n].vertices) prism.outline_grid.add(corner + Point2d{p.x, p.y});
     tiles_.push_back(prism);
   }
+  const Point2d origin_grid = grid.middle_corner();
+  for (const Triangle& t : tiles.relief.triangles) {
+    Prism& prism = relief_.emplace_back(Prism{{}, -std::numeric_limits<float>::infinity()});
+    for (const std::uint32_t v : {t.a, t.b, t.c}) {
+      const Point3f& p = tiles.relief.vertices[v];
+      prism.outline_grid.add(origin_grid + Point2d{p.x, p.y});
+      prism.height_m = std::max(prism.height_m, p.z);
+    }
+  }
   for (const Block block : grid.blocks()) {
     BlockPrism b{{{}, -std::numeric_limits<float>::infinity()}, grid.cells_of(block)};
     for (std::size_t n = 0; n < static_cast<std::size_t>(b.cells.size()); ++n) {
@@ -51,6 +60,7 @@ float FarHeightBound::top(Cell cell, float capture_height_m) const {
   const Point2d centre = grid_.centre_of(cell);
   const CellRange near = grid_.neighborhood_of(cell);
   double top = 0.0;
+  for (const Prism& triangle : relief_) top = std::max(top, slope(triangle, centre, capture_height_m));
   for (const BlockPrism& block : blocks_) {
     if (slope(block.prism, centre, capture_height_m) <= top) continue;
     for (std::size_t n = 0; n < static_cast<std::size_t>(block.cells.size()); ++n) {
@@ -71,6 +81,7 @@ std::vector<std::uint32_t> first_triangles(const TileSet& tiles) {
     first.push_back(next);
     next += static_cast<std::uint32_t>(tile.triangles.size());
   }
+  first.push_back(next);
   return first;
 }
 
@@ -80,9 +91,11 @@ CityOccluder::CityOccluder(const TileSet& tiles, const Grid& grid)
     : cells_(tiles.cells),
       origin_grid_(grid.middle_corner()),
       first_triangle_(first_triangles(tiles)),
-      occluder_(occluder_of_cells(grid, cells_, origin_grid_, [&](Cell c) { return tiles.tile(c).mesh(); })) {}
+      occluder_(occluder_of_cells(
+          grid, cells_, origin_grid_, [&](Cell c) { return tiles.tile(c).mesh(); }, {}, tiles.relief.mesh())) {}
 
 Cell CityOccluder::cell_of_triangle(std::uint32_t triangle) const {
+  if (triangle >= first_triangle_.back()) return beyond_grid;
   // Empty tiles begin where the next one does: the last that begins at or before the triangle holds it
   const auto after = std::upper_bound(first_triangle_.begin(), first_triangle_.end(), triangle);
   return cells_.cell_at(static_cast<std::size_t>(after - first_triangle_.begin()) - 1);
@@ -134,7 +147,8 @@ float BoxMapBaker::distance_m(const Point3f& capture, const Point3d& d, const Ce
   Ray ray{capture, {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)}};
   std::optional<Hit> hit;
   const auto is_far = [&](std::uint32_t triangle) { return !near.contains(city_.cell_of_triangle(triangle)); };
-  if (assign_ == Assign::clip) {
+  const bool relief_may_be_near = !tiles_.relief.empty() && near.intersection(grid_.cells) != near;
+  if (assign_ == Assign::clip && !relief_may_be_near) {
     const double border_m = grid_.neighborhood_half_edge_m();
     ray.begin = static_cast<float>(border_m * (1.0 - border_rounding));
     hit = city_.occluder().nearest(ray);
@@ -142,7 +156,8 @@ float BoxMapBaker::distance_m(const Point3f& capture, const Point3d& d, const Ce
     if (hit && hit->distance < border_m * (1.0 + border_rounding) && !is_far(hit->triangle))
       hit = city_.occluder().nearest(ray, is_far);
   } else {
-    // Whole buildings cross the border: whose cell they belong to decides, not where they stand
+    // Whole buildings cross the border, and the relief begins at that of the grid: what a triangle belongs to decides, not where
+    // it stands
     hit = city_.occluder().nearest(ray, is_far);
   }
   return hit ? static_cast<float>(hit->distance * norm(d)) : std::numeric_limits<float>::infinity();

@@ -21,9 +21,9 @@ namespace {
 /// Decides for each patch of a cell which candidates are explicit, and bounds the others.
 class OccluderClassifier {
  public:
-  /// All must outlive it; `map` gets the explicit occluders and the bounds. The tolerance is HorizonMapSettings::tolerance.
+  /// All must outlive it; `map` gets the explicit occluders and the bounds.
   OccluderClassifier(const CityHorizon& city, const ReceiverCell& cell, const ViewpointHorizons& viewpoints,
-                     const BinBorders& borders, double tolerance, BakedHorizon& map);
+                     const BinBorders& borders, const HorizonMapSettings& settings, BakedHorizon& map);
 
   /// Makes an occluder (by its number in the city) explicit for the patches where it is significant, and bounds it for the
   /// others. Returns the layers in which it is explicit, as bits.
@@ -40,7 +40,8 @@ class OccluderClassifier {
   const ReceiverCell& cell_;
   const ViewpointHorizons& viewpoints_;
   const AzimuthBins& bins_;
-  double tolerance_;
+  double tolerance_of_city_, tolerance_of_relief_;
+  double tolerance_ = 0.0;  ///< of the current occluder; at first the smaller one of those that there are
   BakedHorizon& map_;
   std::vector<float> lowest_horizon_;      ///< rows as in the map: the lowest horizon that the patch's viewpoints see
   std::vector<double> significant_above_;  ///< likewise: no edge below this slope is significant
@@ -52,17 +53,19 @@ class OccluderClassifier {
 constexpr double just_below = 1.0 - 1e-9;
 
 OccluderClassifier::OccluderClassifier(const CityHorizon& city, const ReceiverCell& cell, const ViewpointHorizons& viewpoints,
-                                       const BinBorders& borders, double tolerance, BakedHorizon& map)
+                                       const BinBorders& borders, const HorizonMapSettings& settings, BakedHorizon& map)
     : city_(city),
       cell_(cell),
       viewpoints_(viewpoints),
       bins_(borders.bins()),
-      tolerance_(tolerance),
+      tolerance_of_city_(settings.tolerance),
+      tolerance_of_relief_(std::min(settings.relief_tolerance, settings.tolerance)),
       map_(map),
       lowest_horizon_(map.high.size()),
       significant_above_(map.high.size()),
       grounded_low_(map.high.size()),
       edge_(borders) {
+  tolerance_ = city.has_relief() ? tolerance_of_relief_ : tolerance_of_city_;
   for (std::uint32_t patch = 0; patch < cell_.patches.count(); ++patch) set_thresholds(patch);
 }
 
@@ -84,6 +87,7 @@ void OccluderClassifier::set_thresholds(std::uint32_t patch) {
 std::uint32_t OccluderClassifier::classify(std::uint32_t number) {
   const OccluderEdge& occluder = city_.occluders()[number];
   const OccluderEdge placed = occluder.from(cell_.corner);
+  tolerance_ = city_.is_relief(number) ? tolerance_of_relief_ : tolerance_of_city_;
   package::ExplicitOccluder explicit_in{number, 0, 0};
   for (std::uint32_t square = 0; square < cell_.patches.squares(); ++square) {
     const PatchBox box = cell_.patches.box(square);
@@ -280,7 +284,7 @@ BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
   const CullResult culled = OcclusionCuller(city_, receivers, borders_, settings_).run();
   BakedHorizon map = map_of_culled(receivers.patches, culled);
   // Make the significant candidates explicit, and bound the others
-  OccluderClassifier classifier(city_, receivers, culled.viewpoints, borders_, settings_.tolerance, map);
+  OccluderClassifier classifier(city_, receivers, culled.viewpoints, borders_, settings_, map);
   // Draw the horizon of the residual city: candidates at the levels where they are not explicit, and all that is weak
   ViewpointHorizons residual(grid_.cell_edge_m, receivers.patches, borders_);
   const auto add_to_residual = [&](std::uint32_t number, std::uint32_t levels) {

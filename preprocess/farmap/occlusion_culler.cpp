@@ -99,16 +99,18 @@ OcclusionCuller::OcclusionCuller(const CityHorizon& city, const ReceiverCell& ce
       cell_(cell),
       borders_(borders),
       bins_(borders.bins()),
-      tolerance_(settings.tolerance),
-      weak_tolerance_(settings.weak_share * settings.tolerance),
       result_{{}, {}, ViewpointHorizons(cell.square.high.x, cell.patches, borders), {}, {}},
+      of_city_{settings.weak_share * settings.tolerance, settings.tolerance},
+      of_relief_{std::min(settings.weak_relief, settings.tolerance), std::min(settings.relief_tolerance, settings.tolerance)},
       leaf_bound_(cell.patches.layers(), 0.0),
       edge_(borders_) {
   result_.high.assign(std::size_t{cell.patches.layers()} * bins_.count, 0.0F);
   result_.overhang = result_.high;
   lowest_horizon_.assign(result_.high.size(), -1.0F);
-  weak_above_.resize(result_.high.size());
-  significant_above_.resize(result_.high.size());
+  for (Thresholds* thresholds : {&of_city_, &of_relief_}) {
+    thresholds->weak_above.resize(result_.high.size());
+    thresholds->significant_above.resize(result_.high.size());
+  }
   update_thresholds({0, bins_.count});
 }
 
@@ -125,6 +127,7 @@ CullResult OcclusionCuller::run() && {
     const auto [distance_m, n] = queue.top();
     queue.pop();
     const CityHorizon::Node& node = city_.nodes()[n];
+    is_relief_ = node.cell == beyond_grid;
     // Cull a node as a whole, descend into it, or visit the occluders of its cell, unless that is near
     if (cull_node(node, distance_m)) continue;
     if (node.children != 0) {
@@ -154,7 +157,7 @@ BinRange OcclusionCuller::bins_of(const Box2d& box) const {
   return borders_.between(turned(from, -bound_rounding), turned(to, bound_rounding));
 }
 
-/// Culls a node when its whole box stays below `weak_above_`, and returns whether it did.
+/// Culls a node when its whole box stays below Thresholds::weak_above, and returns whether it did.
 bool OcclusionCuller::cull_node(const CityHorizon::Node& node, double distance_m) {
   const std::vector<float>& levels_m = cell_.patches.levels_m();
   // What does not rise above the lowest receiver hides nothing; what meets the cell cannot be bounded
@@ -165,9 +168,8 @@ bool OcclusionCuller::cull_node(const CityHorizon::Node& node, double distance_m
   bool culled = true;
   for (std::size_t l = 0; l < levels_m.size() && culled && node.z_high_m > levels_m[l]; ++l) {
     const double slope = slope_at_most(node.z_high_m - levels_m[l], distance_m);
-    const double* weak_above = &weak_above_[l * bins_.count];
-    for_each_bin(bins_, range.first, range.count,
-                 [&](std::size_t, std::uint32_t bin) { culled = culled && slope <= weak_above[bin]; });
+    const double* weak = &thresholds().weak_above[l * bins_.count];
+    for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) { culled = culled && slope <= weak[bin]; });
   }
   if (!culled) return false;
   // Keep that slope as the bound of all that is in the box
@@ -221,9 +223,9 @@ void OcclusionCuller::update_leaf_bound(const BinRange& range) {
   for (std::size_t l = 0; l < leaf_bound_.size(); ++l) {
     double lowest = std::numeric_limits<double>::infinity();
     const float* row = &result_.high[l * bins_.count];
-    const double* weak_above = &weak_above_[l * bins_.count];
+    const double* weak = &thresholds().weak_above[l * bins_.count];
     for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
-      lowest = std::min({lowest, double{row[bin]}, weak_above[bin]});
+      lowest = std::min({lowest, double{row[bin]}, weak[bin]});
     });
     leaf_bound_[l] = lowest;
   }
@@ -259,7 +261,8 @@ OcclusionCuller::Visibility OcclusionCuller::visibility_of(const OccluderEdge& o
   bounds_.clear();
   for (std::size_t l = 0; l < levels_m.size() && !significant && occluder.z_high_m() > levels_m[l]; ++l) {
     const std::span<const double> high = edge_.high(levels_m[l]);
-    const double *weak_above = &weak_above_[l * bins_.count], *significant_above = &significant_above_[l * bins_.count];
+    const double *weak_above = &thresholds().weak_above[l * bins_.count],
+                 *significant_above = &thresholds().significant_above[l * bins_.count];
     for_each_bin(bins_, edge_.first_bin(), high.size(), [&](std::size_t n, std::uint32_t bin) {
       weak = weak || high[n] > weak_above[bin];
       significant = significant || high[n] > significant_above[bin];
@@ -280,6 +283,12 @@ void OcclusionCuller::raise_by_bounds(const OccluderEdge& occluder, std::vector<
   }
 }
 
+void OcclusionCuller::Thresholds::raise(std::size_t index, float lowest_horizon) {
+  const double sine = sine_of_slope(lowest_horizon);
+  weak_above[index] = std::max<double>(lowest_horizon, slope_of_sine(sine + weak_tolerance));
+  significant_above[index] = std::max<double>(lowest_horizon, slope_of_sine(sine + tolerance));
+}
+
 /// Adds the tolerances to the lowest horizon of the viewpoints, where that has risen. Of a layer, the viewpoints at its ceiling
 /// count: they see the lowest horizon.
 void OcclusionCuller::update_thresholds(const BinRange& range) {
@@ -290,9 +299,8 @@ void OcclusionCuller::update_thresholds(const BinRange& range) {
       const std::size_t index = std::size_t{l} * bins_.count + bin;
       if (lowest == lowest_horizon_[index]) continue;
       lowest_horizon_[index] = lowest;
-      const double sine = sine_of_slope(lowest);
-      weak_above_[index] = std::max<double>(lowest, slope_of_sine(sine + weak_tolerance_));
-      significant_above_[index] = std::max<double>(lowest, slope_of_sine(sine + tolerance_));
+      of_city_.raise(index, lowest);
+      if (city_.has_relief()) of_relief_.raise(index, lowest);
     }
   });
 }

@@ -76,6 +76,7 @@ struct ReceiverCell {
 ///   (1) each upper border outside of the neighborhood is a candidate, or lies below `high` from all over the cell
 ///   (2) an upper border that is no candidate rises by no more than the tolerance over what the viewpoints see of the nearer city
 ///   (3) one that is not weak either rises by no more than HorizonMapSettings::weak_share of the tolerance
+///       (the relief has tolerances of its own for both)
 ///   (4) each lower border outside of the neighborhood is a candidate, or lies likewise below `overhang`
 struct CullResult {
   std::vector<std::uint32_t> candidates;  ///< numbers of occluders, from near to far
@@ -95,11 +96,20 @@ class OcclusionCuller {
   [[nodiscard]] CullResult run() &&;
 
  private:
+  /// Rows as in CullResult::high: the slopes above which an occluder is weak or significant, which are the lowest horizon of all
+  /// viewpoints so far and two tolerances (sines of elevations) on top of it.
+  struct Thresholds {
+    double weak_tolerance, tolerance;
+    std::vector<double> weak_above = {}, significant_above = {};
+    void raise(std::size_t index, float lowest_horizon);
+  };
   [[nodiscard]] Box2d outline_of(const CityHorizon::Node& node) const;
   [[nodiscard]] BinRange bins_of(const Box2d& box) const;
   bool cull_node(const CityHorizon::Node& node, double distance_m);
   void visit_leaf(const CityHorizon::Node& leaf, double distance_m);
   [[nodiscard]] bool faces_away(const OccluderEdge& occluder) const;
+  /// Of the current occluders.
+  [[nodiscard]] Thresholds& thresholds() { return is_relief_ ? of_relief_ : of_city_; }
   void update_leaf_bound(const BinRange& range);
   [[nodiscard]] bool is_below_leaf_bound(const OccluderEdge& occluder) const;
   enum class Visibility : std::uint8_t { hidden, weak, significant };
@@ -113,12 +123,10 @@ class OcclusionCuller {
   const ReceiverCell& cell_;
   const BinBorders& borders_;
   const AzimuthBins& bins_;
-  double tolerance_, weak_tolerance_;  ///< sines of elevations
+  bool is_relief_ = false;  ///< the current node is of the relief
   CullResult result_;
-  /// Rows as in CullResult::high. The lowest horizon of all viewpoints so far; and the slopes above which an occluder is weak or
-  /// significant: that horizon and the two tolerances on top of it.
   std::vector<float> lowest_horizon_;
-  std::vector<double> weak_above_, significant_above_;
+  Thresholds of_city_, of_relief_;
   std::vector<double> leaf_bound_;  ///< for each layer: what stays below this slope is culled and bounded in all bins of the leaf
   EdgeOverSquare edge_;             ///< the current occluder, seen from all over the cell
   std::vector<double> bounds_;      ///< of the current occluder: EdgeOverSquare::high, level by level

@@ -73,6 +73,7 @@ class CityReading {
     require_usable();
     const align::GridSettings grid = choose_settings();
     read_.ground = lay_grid(grid, report_, run_stage_);
+    read_.terrain_file = std::move(files_.terrain);
     return std::move(read_);
   }
 

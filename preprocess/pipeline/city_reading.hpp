@@ -47,6 +47,7 @@ struct GridOnGround {
 struct ReadCity {
   LocatedCity located;
   GridOnGround ground;
+  std::optional<georeference::TerrainFile> terrain_file;  ///< of which the ground is a part
   FarMapSettings far_map;
   bool is_chosen = false;          ///< cells, neighborhood and tolerance were to be chosen
   std::optional<GridChoice> best;  ///< and this is the choice; none where nothing keeps the error

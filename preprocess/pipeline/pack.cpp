@@ -21,6 +21,7 @@
 #include "pipeline/city_reading.hpp"
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_target.hpp"
+#include "relief/far_relief.hpp"
 #include "tiles/crowns_on_ground.hpp"
 
 namespace farlod::pipeline {
@@ -151,6 +152,7 @@ class Packing {
 
   void write_beside_blocks(const std::filesystem::path& folder, TileSet& tiles, std::optional<CrownsOfCity>& crowns) {
     package::Manifest& m = record_.result.manifest;
+    m.relief = write_relief(folder, tiles.relief);
     m.sources = write_sources(folder, std::exchange(tiles.sources, {}), sources_);
     if (crowns) timed("crowns", [&] { m.canopy = write_canopy(folder, *crowns); });
   }
@@ -199,20 +201,38 @@ class Packing {
     return std::move(read.trees);
   }
 
+  /// The ground beyond the grid; none where no raster may have it.
+  Relief relief_around(const Georeference& place, const std::optional<georeference::TerrainFile>& terrain,
+                       const tiles::Ground& ground, double height_origin_m) {
+    std::vector<relief::ReliefSource> sources;
+    if (terrain) sources.push_back({*terrain, settings_.terrain_offset_m, true});
+    for (const std::filesystem::path& file : settings_.far_terrains) sources.push_back({file});
+    if (sources.empty()) return {};
+    const relief::CityGround city{place, record_.result.manifest.grid, height_origin_m, ground.lowest_m().value_or(0.0),
+                                  [&ground](Point2d p) { return ground.height_at(p); }};
+    Relief found;
+    timed("relief", [&] {
+      found = relief::far_relief(sources, settings_.georeference.crs, city, {}, report_, record_.result.notes, run_.stop);
+    });
+    return found;
+  }
+
   /// The problems found here have positions in the CRS of the package.
   TileSet cut_tiles(ReadCity city, tiles::TreesOfCity trees, std::optional<CrownsOfCity>& crowns) {
     const std::size_t known = report_.problems().size();
     const Georeference place = city.located.georeference;
-    tiles::OnGround place_crowns;
-    if (trees.any())
-      place_crowns = [&](const tiles::Ground& ground, double height_origin_m) {
-        tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
-        crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
-        record_.result.crowns = placing.counts();
-        for (const std::string& note : placing.notes()) record_.result.notes.push_back(note);
-      };
+    Relief relief;
+    const tiles::OnGround on_ground = [&](const tiles::Ground& ground, double height_origin_m) {
+      relief = relief_around(place, city.terrain_file, ground, height_origin_m);
+      if (!trees.any()) return;
+      tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
+      crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
+      record_.result.crowns = placing.counts();
+      for (const std::string& note : placing.notes()) record_.result.notes.push_back(note);
+    };
     TileSet tiles = tiles::cut_into_tiles(std::move(city.located), city.ground.grid, settings_.assign, city.ground.terrain,
-                                          report_, run_.stop, place_crowns);
+                                          report_, run_.stop, on_ground);
+    tiles.relief = std::move(relief);
     if (const auto crs = georeference::Crs::find(place.crs_wkt)) {
       georeference::ProblemLocator locator(*crs, georeference::FileAxes{}, place.origin_m);
       for (Problem& problem : report_.since(known)) locator.locate(problem);

@@ -37,6 +37,11 @@ package::CanopyFile canopy_from(const Json& j) {
   return canopy;
 }
 
+Json json_of(const std::optional<package::FileStamp>& stamp) { return stamp ? Json{stamp->bytes, stamp->xxh3} : Json(); }
+std::optional<package::FileStamp> stamp_from(const Json& j) {
+  return j.is_null() ? std::nullopt : std::optional(package::FileStamp{j.at(0), j.at(1)});
+}
+
 Json json_of(const package::Manifest& m) {
   Json inputs = Json::array();
   for (const package::InputFile& i : m.inputs) inputs.push_back({i.name, i.stamp.bytes, i.stamp.xxh3});
@@ -51,7 +56,8 @@ Json json_of(const package::Manifest& m) {
           {"counts", {m.buildings, m.polygons, m.triangles}},
           {"problems", m.problem_counts},
           {"canopy", m.canopy ? json_of(*m.canopy) : Json()},
-          {"sources", m.sources ? Json{m.sources->bytes, m.sources->xxh3} : Json()}};
+          {"sources", json_of(m.sources)},
+          {"relief", json_of(m.relief)}};
 }
 package::Manifest manifest_from(const Json& j) {
   package::Manifest m;
@@ -72,7 +78,8 @@ package::Manifest manifest_from(const Json& j) {
   m.triangles = counts.at(2);
   j.at("problems").get_to(m.problem_counts);
   if (const Json& canopy = j.at("canopy"); !canopy.is_null()) m.canopy = canopy_from(canopy);
-  if (const Json& sources = j.at("sources"); !sources.is_null()) m.sources = package::FileStamp{sources.at(0), sources.at(1)};
+  m.sources = stamp_from(j.at("sources"));
+  m.relief = stamp_from(j.at("relief"));
   return m;
 }
 

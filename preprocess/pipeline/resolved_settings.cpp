@@ -19,6 +19,8 @@ void check_files(const PackSettings& s) {
   for (const std::filesystem::path& input : s.inputs)
     if (input.empty()) throw InvalidArgument("one of the inputs has an empty name: give the path of a file or a folder");
   if (s.terrain && s.terrain->empty()) throw InvalidArgument("terrain is empty: give the path of a raster, or no terrain");
+  for (const auto& file : s.far_terrains)
+    if (file.empty()) throw InvalidArgument("far_terrains has an empty path: give the paths of rasters");
   require_between("terrain_offset_m", s.terrain_offset_m, -1000.0, 1000.0);
   require_one_of("overwrite", s.overwrite, Overwrite::replace);
   require_one_of("problems", s.problems, ProblemPolicy::refuse);
@@ -117,6 +119,7 @@ StageSettings resolved(const PackSettings& s) {
   stages.inputs = s.inputs;
   stages.terrain = s.terrain;
   stages.terrain_offset_m = s.terrain_offset_m;
+  stages.far_terrains = s.far_terrains;
   stages.trees = s.trees;
   stages.output = s.output;
   stages.overwrite = s.overwrite;

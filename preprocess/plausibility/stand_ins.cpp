@@ -11,15 +11,13 @@
 namespace farlod::plausibility {
 namespace {
 
-bool is_on_land(float height_m) { return lowest_elevation_m <= height_m && height_m <= highest_elevation_m; }
-
 /// Rule (2) of take_out_stand_ins.
 bool zero_stands_in(const std::vector<std::optional<float>>& heights_m, HeightsOf of) {
   const float least_gap_m = of == HeightsOf::ground ? 20.0F : 100.0F;
   float lowest_other_m = std::numeric_limits<float>::infinity();
   bool has_zero = false;
   for (const auto& height_m : heights_m) {
-    if (!height_m || !is_on_land(*height_m)) continue;
+    if (!height_m || !may_be_elevation(*height_m)) continue;
     if (*height_m == 0.0F)
       has_zero = true;
     else
@@ -35,7 +33,7 @@ std::vector<StandIn> take_out_stand_ins(std::vector<std::optional<float>>& heigh
   std::map<float, StandIn> by_height;
   for (std::size_t n = 0; n < heights_m.size(); ++n) {
     auto& height_m = heights_m[n];
-    if (!height_m || (is_on_land(*height_m) && !(without_zero && *height_m == 0.0F))) continue;
+    if (!height_m || (may_be_elevation(*height_m) && !(without_zero && *height_m == 0.0F))) continue;
     ++by_height.try_emplace(*height_m, StandIn{*height_m, 0, n}).first->second.pixels;
     height_m.reset();
   }

@@ -45,13 +45,14 @@ Occluder occluder_of(std::span<const PlacedMesh> tiles, const std::stop_token& s
 }
 
 Occluder occluder_of_cells(const Grid& grid, const CellRange& cells, Point2d origin_grid,
-                           const std::function<MeshView(Cell)>& mesh_of, const std::stop_token& stop) {
+                           const std::function<MeshView(Cell)>& mesh_of, const std::stop_token& stop, const MeshView& beyond) {
   std::vector<PlacedMesh> placed;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {
     throw_if_cancelled(stop);
     const Cell cell = cells.cell_at(n);
     placed.push_back({mesh_of(cell), grid.corner_of(cell) - origin_grid});
   }
+  placed.push_back({beyond, {}});
   return occluder_of(placed, stop);
 }
 

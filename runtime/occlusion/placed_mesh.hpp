@@ -35,8 +35,10 @@ struct PlacedScene {
 /// Throws LimitReached where there are more than 32 bits can number.
 [[nodiscard]] Occluder occluder_of(std::span<const PlacedMesh> tiles, const std::stop_token& stop = {});
 
-/// One occluder of the tiles of some cells, in the order of the range. Its frame is the grid frame, moved to `origin_grid`.
+/// One occluder of the tiles of some cells, in the order of the range, and of a mesh in the frame of the occluder after them. The
+/// frame is the grid frame, moved to `origin_grid`.
 [[nodiscard]] Occluder occluder_of_cells(const Grid& grid, const CellRange& cells, Point2d origin_grid,
-                                         const std::function<MeshView(Cell)>& mesh_of, const std::stop_token& stop = {});
+                                         const std::function<MeshView(Cell)>& mesh_of, const std::stop_token& stop = {},
+                                         const MeshView& beyond = {});
 
 }  // namespace farlod

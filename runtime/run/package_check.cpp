@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 #include <utility>
 
@@ -26,6 +27,7 @@ class BytesRead {
     for (const package::BlockFiles& files : manifest.blocks) all_ += files.tiles.bytes + files.far_map.bytes;
     if (manifest.canopy) all_ += manifest.canopy->stamp.bytes;
     if (manifest.sources) all_ += manifest.sources->bytes;
+    if (manifest.relief) all_ += manifest.relief->bytes;
   }
   void add(std::uint64_t bytes) {
     throw_if_cancelled(run_.stop);
@@ -76,34 +78,33 @@ CheckedBlock check_block(const PackageContents& contents, std::size_t n, BytesRe
   return checked;
 }
 
-void check_crowns(const PackageContents& contents, PackageCheck& check) {
-  const package::Manifest& manifest = contents.reader.manifest();
-  if (!manifest.canopy) return;
+/// A file of the whole city, which `open` checks; none where there is no stamp.
+void check_file(const char* name, const std::optional<package::FileStamp>& stamp, const std::function<void()>& open,
+                BytesRead& read, PackageCheck& check) {
+  if (!stamp) return;
   ++check.files;
-  check.bytes += manifest.canopy->stamp.bytes;
+  check.bytes += stamp->bytes;
   try {
-    check.crowns = CrownsFile(contents.reader.folder(), manifest).crowns().size();
+    open();
   } catch (const PackageDamaged& error) {
-    check.damage.push_back({package::crowns_file, std::nullopt, error.what()});
+    check.damage.push_back({name, std::nullopt, error.what()});
   } catch (const PackageUnusable& error) {
     // A version that is not the manifest's
-    check.damage.push_back({package::crowns_file, std::nullopt, error.what()});
+    check.damage.push_back({name, std::nullopt, error.what()});
   }
+  read.add(stamp->bytes);
 }
 
-void check_sources(const PackageContents& contents, PackageCheck& check) {
-  const package::Manifest& manifest = contents.reader.manifest();
-  if (!manifest.sources) return;
-  ++check.files;
-  check.bytes += manifest.sources->bytes;
-  try {
-    (void)SourcesFile(contents.reader.folder(), manifest);
-  } catch (const PackageDamaged& error) {
-    check.damage.push_back({package::sources_file, std::nullopt, error.what()});
-  } catch (const PackageUnusable& error) {
-    // A version that is not the manifest's
-    check.damage.push_back({package::sources_file, std::nullopt, error.what()});
-  }
+void check_files_of_city(const PackageContents& contents, BytesRead& read, PackageCheck& check) {
+  const PackageFolder& folder = contents.reader.folder();
+  const package::Manifest& m = contents.reader.manifest();
+  const std::optional<package::FileStamp> crowns = m.canopy ? std::optional(m.canopy->stamp) : std::nullopt;
+  check_file(
+      package::crowns_file, crowns, [&] { check.crowns = CrownsFile(folder, m).crowns().size(); }, read, check);
+  check_file(
+      package::sources_file, m.sources, [&] { (void)SourcesFile(folder, m); }, read, check);
+  check_file(
+      package::relief_file, m.relief, [&] { (void)ReliefFile(folder, m); }, read, check);
 }
 
 /// The blocks together; what can be said of the package as a whole comes last.
@@ -162,10 +163,7 @@ PackageCheck check_package(const Package& package, const RunSettings& run) {
         oneapi::tbb::simple_partitioner());
   });
   PackageCheck check = summed(*contents, blocks);
-  check_crowns(*contents, check);
-  if (manifest.canopy) read.add(manifest.canopy->stamp.bytes);
-  check_sources(*contents, check);
-  if (manifest.sources) read.add(manifest.sources->bytes);
+  check_files_of_city(*contents, read, check);
   return check;
 }
 

@@ -69,6 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "--lod",
                  "--terrain",
                  "--terrain-offset",
+                 "--far-terrain",
                  "--layer",
                  "--encoding",
                  "--unknown-height",

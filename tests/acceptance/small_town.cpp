@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/frame.hpp"
 #include "tests/acceptance/work_folder.hpp"
@@ -69,6 +70,20 @@ std::string footprints_geojson(const std::vector<Block>& blocks) {
                {"features", Json::array()}};
   for (const Block& b : blocks) city["features"].push_back(feature(b));
   return city.dump(1);
+}
+
+std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m, double half_m) {
+  const int nodes = 1 + static_cast<int>(std::lround(2.0 * half_m / step_m));
+  std::ostringstream text;
+  text.precision(12);
+  const Point2d corner = town_middle - (half_m + 0.5 * step_m) * Point2d{1.0, 1.0};
+  text << "ncols " << nodes << "\nnrows " << nodes << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y << "\ncellsize "
+       << step_m << "\nNODATA_value -9999\n";
+  for (int row = 0; row < nodes; ++row) {
+    for (int column = 0; column < nodes; ++column) text << height_m({-half_m + column * step_m, half_m - row * step_m}) << ' ';
+    text << '\n';
+  }
+  return text.str();
 }
 
 std::string box_obj() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ inline constexpr double town_pitch_m = 60.0, town_edge_m = 36.0, town_half_m = 1
 
 /// GeoJSON in EPSG:32632, coordinates in whole millimetres, heights in the field `height`.
 [[nodiscard]] std::string footprints_geojson(const std::vector<Block>& blocks);
+
+/// An ESRI ASCII grid around the town's middle, with pixel centres at whole steps from it. `height_m` gets metres from the
+/// middle; -9999 is no data.
+[[nodiscard]] std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m = 10.0, double half_m = 500.0);
 
 class WorkFolder;
 /// Writes `town.geojson`, and `a.farlod` as `farlod-pack town.geojson -o a.farlod` with these settings makes it. A town of this

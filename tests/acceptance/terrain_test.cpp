@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <functional>
-#include <sstream>
 
 #include "base/frame.hpp"
 #include "tests/acceptance/packed_town.hpp"
@@ -11,22 +9,6 @@
 
 namespace farlod::acceptance {
 namespace {
-
-/// An ESRI ASCII grid around the town's middle, with pixel centres at whole steps from it. `height_m` gets metres from the
-/// middle.
-std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m = 10.0, double half_m = 500.0) {
-  const int nodes = 1 + static_cast<int>(std::lround(2.0 * half_m / step_m));
-  std::ostringstream text;
-  text.precision(12);
-  const Point2d corner = town_middle - (half_m + 0.5 * step_m) * Point2d{1.0, 1.0};
-  text << "ncols " << nodes << "\nnrows " << nodes << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y << "\ncellsize "
-       << step_m << "\nNODATA_value -9999\n";
-  for (int row = 0; row < nodes; ++row) {
-    for (int column = 0; column < nodes; ++column) text << height_m({-half_m + column * step_m, half_m - row * step_m}) << ' ';
-    text << '\n';
-  }
-  return text.str();
-}
 
 double plane_m(Point2d p) { return 100.0 + 0.1 * p.x + 0.05 * p.y; }
 

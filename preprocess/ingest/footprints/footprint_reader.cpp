@@ -151,8 +151,6 @@ std::string said(const std::string& name, const FieldValue& value) {
   return std::move(text).str();
 }
 
-bool is_elevation(double elevation_m) { return lowest_elevation_m <= elevation_m && elevation_m <= highest_elevation_m; }
-
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 bool is_height(double height_m) { return 0.0 < height_m && height_m <= highest_building_m; }
@@ -245,11 +243,11 @@ std::string FootprintHeights::what_they_say(const std::vector<std::size_t>& fiel
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& roof, const FieldLookup& value_of) const {
-  if (!is_elevation(roof.value_m)) return no_elevation(roof.said);
+  if (!may_be_elevation(roof.value_m)) return no_elevation(roof.said);
   if (base_.empty()) return PrismExtent{roof.value_m - provisional_height_m, roof.value_m, HeightReference::down_to_ground};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
-  if (!is_elevation(base->value_m)) return no_elevation(base->said);
+  if (!may_be_elevation(base->value_m)) return no_elevation(base->said);
   if (auto objection = objection_to(roof.value_m - base->value_m, roof.said + " and " + base->said)) return *objection;
   return PrismExtent{base->value_m, roof.value_m, HeightReference::elevation};
 }
@@ -265,7 +263,7 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
   if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, foot};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
-  if (!is_elevation(base->value_m)) return no_elevation(base->said);
+  if (!may_be_elevation(base->value_m)) return no_elevation(base->said);
   return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source, foot};
 }
 

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cmath>
+
+#include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/tolerance.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+/// The least that a town around its middle can be: nothing of it rises above a receiver.
+std::string flat_town() { return footprints_geojson({{"slab", {60.0, 60.0}, 10.0, 0.1}, {"step", {-60.0, -60.0}, 10.0, 0.1}}); }
+
+/// Level ground, and from a distance on a plateau: seen from the middle, its edge is the horizon.
+std::string plateau(double from_m, double height_m, double step_m, double half_m) {
+  return ascii_grid([=](Point2d p) { return norm(p) < from_m ? 100.0 : 100.0 + height_m; }, step_m, half_m);
+}
+
+/// Of light, for standard refraction: what lies so far away seems lower by this.
+double expected_sinking_m(double distance_m) { return 0.87 * distance_m * distance_m / (2.0 * 6371008.8); }
+
+class FarTerrain : public testing::Test {
+ protected:
+  FarTerrain() { folder.write("slab.geojson", flat_town()); }
+  void pack(const std::string& arguments) const {
+    folder.must("farlod-pack slab.geojson --cell 50 -o a.farlod --summary p.json " + arguments);
+  }
+  [[nodiscard]] CsvTable at_middle(const std::string& arguments) const {
+    folder.must("farlod-svf a.farlod --at " + text_of(town_middle) + " --height 0.5 -o at.csv " + arguments);
+    return CsvTable(folder.text_of("at.csv"));
+  }
+  WorkFolder folder;
+};
+
+TEST_F(FarTerrain, AllEnginesSeeARidgeAllAround) {
+  folder.write("terrain.asc", plateau(1500.0, 600.0, 20.0, 2400.0));
+  pack("--terrain terrain.asc");
+  for (const std::string engine : {"auto", "horizon", "rays", "exact"}) {
+    const CsvTable answer = at_middle("--engine " + engine + " --rays 20000 --quantity horizon");
+    // The edge runs along pixels: between the last one of the ground and the first of the plateau
+    const double slope = 600.0 / 1510.0, expected = 1.0 / (1.0 + slope * slope);
+    EXPECT_NEAR(answer.number(0, "svf"), expected, 0.003) << engine;
+    for (const char* azimuth : {"horizon_000", "horizon_090", "horizon_180", "horizon_270"})
+      EXPECT_NEAR(answer.number(0, azimuth), Angle::radians(std::atan(slope)).degrees(), 0.4) << engine << azimuth;
+  }
+}
+
+TEST_F(FarTerrain, BoundsHoldForIt) {
+  folder.write("terrain.asc", ascii_grid(
+                                  [](Point2d p) {
+                                    return 100.0 + 0.2 * std::max(0.0, norm(p) - 300.0) +
+                                           60.0 * std::sin(p.x / 150.0) * std::sin(p.y / 90.0) * std::min(1.0, norm(p) / 1000.0);
+                                  },
+                                  20.0, 2000.0));
+  pack("--terrain terrain.asc");
+  std::string points = "x,y\n";
+  for (int n = 0; n < 200; ++n) {
+    const Point2d p = town_middle + Point2d{10.0 * (n % 20) - 95.0, 20.0 * (n / 20) - 95.0};
+    points += text_of(p) + "\n";
+  }
+  folder.write("points.csv", points);
+  folder.must("farlod-svf a.farlod --points points.csv --bounds --rays 500 --engine rays -o rays.csv");
+  folder.must("farlod-svf a.farlod --points points.csv --rays 500 --engine exact -o exact.csv");
+  const CsvTable rays(folder.text_of("rays.csv")), exact(folder.text_of("exact.csv"));
+  ASSERT_EQ(rays.size(), exact.size());
+  ASSERT_GT(rays.size(), 100U);
+  for (std::size_t n = 0; n < rays.size(); ++n) {
+    const double svf = exact.number(n, "svf"), one_ray = 1.0 / 500.0;
+    EXPECT_LT(svf, 0.98);
+    EXPECT_GE(svf, rays.number(n, "svf_low") - 1.1 * one_ray);
+    EXPECT_LE(svf, rays.number(n, "svf_high") + 1.1 * one_ray);
+    EXPECT_NEAR(svf, rays.number(n, "svf"), 0.006);
+  }
+}
+
+TEST_F(FarTerrain, TheEarthIsRound) {
+  folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }));
+  folder.write("far.asc", plateau(50e3, 4000.0, 250.0, 60e3));
+  pack("--terrain terrain.asc --far-terrain far.asc");
+  const double distance_m = 50e3 + 125.0, slope = (4000.0 - expected_sinking_m(distance_m)) / distance_m;
+  for (const std::string engine : {"auto", "exact"}) {
+    const CsvTable answer = at_middle("--engine " + engine + " --quantity horizon");
+    for (const char* azimuth : {"horizon_000", "horizon_050", "horizon_200"})
+      // .2° of it are the curvature
+      EXPECT_NEAR(answer.number(0, azimuth), Angle::radians(std::atan(slope)).degrees(), 0.03) << engine << azimuth;
+  }
+}
+
+TEST_F(FarTerrain, IsNotThereWhereTheTerrainIs) {
+  // A model of surfaces, as a coarse one is: it stands above the ground
+  folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }, 10.0, 1000.0));
+  folder.write("far.asc", ascii_grid([](Point2d) { return 115.0; }, 100.0, 5000.0));
+  pack("--terrain terrain.asc --far-terrain far.asc");
+  EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("problems").at("212"), 1);
+  const double slope = 15.0 / 1000.0;
+  EXPECT_NEAR(at_middle("--quantity horizon").number(0, "horizon_000"), Angle::radians(std::atan(slope)).degrees(), 0.12);
+}
+
+TEST_F(FarTerrain, APackageSaysWhetherItHasOne) {
+  folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }));
+  pack("--terrain terrain.asc");
+  EXPECT_FALSE(folder.json_of("a.farlod/manifest.json").contains("relief")) << "level ground hides nothing";
+  EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("version"), 10);
+  folder.write("far.asc", plateau(2000.0, 600.0, 50.0, 3000.0));
+  pack("--terrain terrain.asc --far-terrain far.asc --force");
+  EXPECT_TRUE(folder.json_of("a.farlod/manifest.json").contains("relief"));
+  EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("version"), 11);
+  folder.must("farlod-info a.farlod --check");
+}
+
+TEST_F(FarTerrain, EachKindOfFarMapHasIt) {
+  folder.write("terrain.asc", plateau(1500.0, 600.0, 20.0, 2400.0));
+  pack("--terrain terrain.asc --far-map box");
+  const double slope = 600.0 / 1510.0;
+  EXPECT_NEAR(at_middle("--engine rays --rays 20000").number(0, "svf"), 1.0 / (1.0 + slope * slope), 0.01);
+}
+
+TEST_F(FarTerrain, OfAnotherLevelItIsRefused) {
+  folder.write("far.asc", ascii_grid([](Point2d) { return 500.0; }, 100.0, 5000.0));
+  const auto outcome = folder.run("farlod-pack slab.geojson -o a.farlod --far-terrain far.asc");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("far.asc: where the grid ends, it is 500.0 m above the ground of the city"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(FarTerrain, OneThatCannotBeReadIsRefused) {
+  EXPECT_EQ(folder.run("farlod-pack slab.geojson -o a.farlod --far-terrain absent.tif").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace farlod::acceptance
