@@ -159,8 +159,12 @@ SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report&
   return city;
 }
 
-std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
+std::vector<SourceCity> ingest_all(std::span<const InputFile> found, const IngestSettings& settings, Report& report,
                                    const std::stop_token& stop) {
+  std::vector<InputFile> files(found.begin(), found.end());
+  // The features are read with their header. Where it is alone, the reader says that it has no buildings
+  if (files.size() > 1) std::erase_if(files, is_header_of_features);
+  if (files.empty() && !found.empty()) files.push_back(found.front());
   if (files.size() == 1) {
     std::vector<SourceCity> cities;
     cities.push_back(ingest(files.front(), settings, report, stop));

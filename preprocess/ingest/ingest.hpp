@@ -37,8 +37,9 @@ struct IngestSettings {
 
 /// Reads the files of a city, up to four at a time on the threads of the task arena that it is called in. Cities and problems are
 /// in the order of the files. If there are several, a file that is empty or cannot be used as a whole is reported and left out.
-/// Throws InputError when none is left, and Cancelled when a stop is requested. A single file is read as `ingest` reads it.
-[[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
+/// Throws InputError when none is left, and Cancelled when a stop is requested. A single file is read as `ingest` reads it. The
+/// header of CityJSONFeatures in other files is no city.
+[[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> found, const IngestSettings& settings, Report& report,
                                                  const std::stop_token& stop = {});
 
 }  // namespace farlod::ingest

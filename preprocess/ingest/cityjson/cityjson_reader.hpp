@@ -172,8 +172,13 @@ class SyntaxFlaw : public JsonFlaw {
   return text;
 }
 
-/// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line. Throws InputError for a file that is not JSON (with line and column),
-/// is not CityJSON, or has neither buildings nor a relief.
+/// The file with the transform and the CRS of a CityJSONFeature that no header precedes: `metadata.json` in its folder, or in one
+/// of up to three folders above, as roofer writes it. Throws InputError when there is none.
+[[nodiscard]] InputFile metadata_of_feature(const InputFile& feature);
+
+/// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line; also one or several CityJSONFeatures without a header, which is read
+/// from metadata_of_feature. Throws InputError for a file that is not JSON (with line and column), is not CityJSON, or has
+/// neither buildings nor a relief.
 [[nodiscard]] SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report);
 
 }  // namespace farlod::ingest

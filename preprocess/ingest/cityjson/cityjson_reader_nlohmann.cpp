@@ -19,11 +19,18 @@ constexpr double unreadable_number = std::numeric_limits<double>::quiet_NaN();
 /// No city is nested this deep. nlohmann copies and deletes trees by recursion, which would overflow the stack.
 constexpr std::size_t deepest_nesting = 500;
 
+/// A member of an object; null where it has none, or is no object.
+const json& member_of(const json& object, const char* name) {
+  static const json nothing;
+  const auto found = object.find(name);
+  return found == object.end() ? nothing : *found;
+}
+
 double lod_from(const json& geometry) {
-  const auto lod = geometry.find("lod");
-  if (lod == geometry.end()) return 0.0;
-  if (lod->is_number()) return lod->get<double>();
-  const auto& text = lod->get_ref<const std::string&>();
+  const json& lod = member_of(geometry, "lod");
+  if (lod.is_null()) return 0.0;
+  if (lod.is_number()) return lod.get<double>();
+  const auto& text = lod.get_ref<const std::string&>();
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return std::isfinite(value) ? value : 0.0;
@@ -31,19 +38,9 @@ double lod_from(const json& geometry) {
 
 std::vector<SurfaceKind> kinds_from(const json& geometry) {
   std::vector<SurfaceKind> kinds;
-  const auto semantics = geometry.find("semantics");
-  if (semantics == geometry.end() || !semantics->contains("surfaces")) return kinds;
-  for (const json& surface : semantics->at("surfaces")) kinds.push_back(kind_of_surface_name(surface.value("type", "")));
+  for (const json& surface : member_of(member_of(geometry, "semantics"), "surfaces"))
+    kinds.push_back(kind_of_surface_name(surface.value("type", "")));
   return kinds;
-}
-
-/// The numbers of the semantics of the surfaces, nested like the boundaries; null when there are none.
-const json& semantic_values_of(const json& geometry) {
-  static const json nothing;
-  const auto semantics = geometry.find("semantics");
-  if (semantics == geometry.end() || !semantics->is_object()) return nothing;
-  const auto values = semantics->find("values");
-  return values == semantics->end() ? nothing : *values;
 }
 
 /// Refuses numbers that are not whole: nlohmann would cut off their fraction, and its conversion is undefined for large ones.
@@ -88,7 +85,9 @@ CityJsonGeometry geometry_from(const json& j) {
     geometry.instance = {static_cast<std::size_t>(whole_number_from(j.at("template"))),
                          j.at("transformationMatrix").get<std::array<double, 16>>(), whole_number_from(j.at("boundaries").at(0))};
   } else if (const std::optional<int> nesting = nesting_of(geometry.type)) {
-    add_polygons(j.at("boundaries"), semantic_values_of(j), *nesting, kinds_from(j), geometry.polygons);
+    // The numbers of the semantics of the surfaces are nested like the boundaries
+    const json& semantics = member_of(member_of(j, "semantics"), "values");
+    add_polygons(j.at("boundaries"), semantics, *nesting, kinds_from(j), geometry.polygons);
   }
   return geometry;
 }
@@ -100,11 +99,9 @@ CityJsonObject object_from(std::string id, const json& j) {
     object.type = j.at("type").get<std::string>();
     object.parents = j.value("parents", std::vector<std::string>());
     object.children = j.value("children", std::vector<std::string>());
-    if (const auto attributes = j.find("attributes"); attributes != j.end() && attributes->is_object())
-      if (const auto height = attributes->find("measuredHeight"); height != attributes->end() && height->is_number())
-        object.measured_height_m = height->get<double>();
-    if (const auto geometries = j.find("geometry"); geometries != j.end())
-      for (const json& geometry : *geometries) object.geometries.push_back(geometry_from(geometry));
+    if (const json& height = member_of(member_of(j, "attributes"), "measuredHeight"); height.is_number())
+      object.measured_height_m = height.get<double>();
+    for (const json& geometry : member_of(j, "geometry")) object.geometries.push_back(geometry_from(geometry));
   } catch (const std::exception& flaw) {
     object.malformed = plain(flaw.what());
     object.geometries.clear();
@@ -118,19 +115,14 @@ std::string crs_definition_of(const json& crs) {
   if (crs.is_string()) return crs.get<std::string>();
   if (crs.is_number_unsigned()) return "EPSG:" + std::to_string(crs.get<std::uint64_t>());
   if (!crs.is_object()) return {};
-  if (const auto code = crs.find("epsg"); code != crs.end()) return crs_definition_of(*code);
-  const auto properties = crs.find("properties");
-  if (properties == crs.end() || !properties->is_object() || !properties->contains("name")) return {};
-  return crs_definition_of(properties->at("name"));
+  if (const json& code = member_of(crs, "epsg"); !code.is_null()) return crs_definition_of(code);
+  return crs_definition_of(member_of(member_of(crs, "properties"), "name"));
 }
 
 std::string reference_system_of(const json& file) {
-  const json none = json::object();
-  const auto metadata = file.find("metadata");
-  for (const json* holder : {metadata != file.end() && metadata->is_object() ? &*metadata : &none, &file})
+  for (const json* holder : {&member_of(file, "metadata"), &file})
     for (const char* key : {"referenceSystem", "crs"})
-      if (const auto crs = holder->find(key); crs != holder->end())
-        if (std::string definition = crs_definition_of(*crs); !definition.empty()) return definition;
+      if (std::string definition = crs_definition_of(member_of(*holder, key)); !definition.empty()) return definition;
   return {};
 }
 
@@ -281,17 +273,22 @@ class CityJsonFile {
   CityJsonFile(const InputFile& file, LodChoice lod, CityModelBuilder& builder)
       : file_(file), has_places_(has_byte_places(file)), lod_(lod), builder_(builder) {}
 
-  /// The first text has the CRS and the transform. In a sequence, the features follow, one a line.
+  /// The first text has the CRS and the transform. In a sequence, the features follow, one a line. Without one, the first text is
+  /// a feature, and they are in another file.
   void read() {
     const std::unique_ptr<std::istream> source = open_input(file_);
     PlacedBuffer buffer(*source);
     std::istream stream(&buffer);
     stream.exceptions(std::ios::badbit);  // so that what the source throws passes through
-    take_header(parse(buffer, Behind::may_follow));
+    CityJsonText first = parse(buffer, Behind::may_follow);
+    const bool is_feature = member_of(first.rest, "type") == "CityJSONFeature";
+    is_feature ? take_header_of_another_file() : take_header(first);
+    add_to_model(first);
     stream >> std::ws;
-    if (stream.peek() == std::istream::traits_type::eof()) return;
+    const bool is_over = stream.peek() == std::istream::traits_type::eof();
+    if (!is_over || is_feature) format = package::CityFileFormat::cityjsonseq;
+    if (is_over) return;
     if (stream.peek() != '{') throw SyntaxFlaw("there is more text behind its end");
-    format = package::CityFileFormat::cityjsonseq;
     std::string line;
     std::uint64_t begin = buffer.at();
     for (number_ = 2; std::getline(stream, line); ++number_, begin = buffer.at())
@@ -321,15 +318,20 @@ class CityJsonFile {
     throw SyntaxFlaw(collector.flaw());
   }
 
-  void take_header(CityJsonText text) {
-    if (text.rest.value("type", json()) != "CityJSON") throw JsonFlaw("it does not say \"type\": \"CityJSON\"");
+  void take_header(const CityJsonText& text) {
+    if (member_of(text.rest, "type") != "CityJSON") throw JsonFlaw("it does not say \"type\": \"CityJSON\"");
     if (text.rest.contains("transform")) {
       scale_ = text.rest.at("transform").at("scale").get<std::array<double, 3>>();
       translate_ = text.rest.at("transform").at("translate").get<std::array<double, 3>>();
     }
     reference_system = reference_system_of(text.rest);
     if (text.rest.contains("geometry-templates")) take_templates(text.rest.at("geometry-templates"));
-    add_to_model(text);
+  }
+
+  void take_header_of_another_file() {
+    const std::unique_ptr<std::istream> source = open_input(metadata_of_feature(file_));
+    PlacedBuffer buffer(*source);
+    take_header(parse(buffer, Behind::nothing));
   }
 
   void take_templates(const json& j) {
@@ -343,7 +345,7 @@ class CityJsonFile {
     try {
       PlacedBuffer buffer(line, begin);
       CityJsonText text = parse(buffer, Behind::nothing);
-      if (text.rest.value("type", json()) != "CityJSONFeature") throw JsonFlaw("it is no CityJSONFeature");
+      if (member_of(text.rest, "type") != "CityJSONFeature") throw JsonFlaw("it is no CityJSONFeature");
       add_to_model(text);
     } catch (const JsonFlaw& flaw) {
       builder_.add_problem_at("line " + std::to_string(number_), ProblemCode::malformed_feature, flaw.what());

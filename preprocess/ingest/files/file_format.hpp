@@ -22,6 +22,9 @@ namespace farlod::ingest {
 /// is not JSON up to there is not CityJSON.
 [[nodiscard]] bool is_cityjson(const InputFile& file);
 
+/// Whether a file is `metadata.json` of CityJSON without objects: the header of CityJSONFeatures in other files.
+[[nodiscard]] bool is_header_of_features(const InputFile& file);
+
 /// What a file or a folder is to GDAL.
 enum class MapKind {
   unknown,

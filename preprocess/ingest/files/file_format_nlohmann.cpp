@@ -57,4 +57,12 @@ bool is_cityjson(const InputFile& file) {
   return finder.is_cityjson;
 }
 
+bool is_header_of_features(const InputFile& file) {
+  constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
+  if (lower_case(file.unpacked_name()) != "metadata.json") return false;
+  const json header = json::parse(read_beginning(file, most_header_bytes), nullptr, false);
+  const auto type = header.find("type"), objects = header.find("CityObjects");
+  return type != header.end() && *type == "CityJSON" && (objects == header.end() || objects->empty());
+}
+
 }  // namespace farlod::ingest
