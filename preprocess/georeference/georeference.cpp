@@ -180,11 +180,12 @@ void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report
   locate_problems(known, located, output, report);
 }
 
-/// Reports files whose buildings are implausible.
+/// Reports files whose buildings are implausible, and refuses a city that cannot be.
 void report_doubts(const LocatedCity& located, const Crs& output, Report& report) {
   const std::size_t known = report.problems().size();
-  report_implausible(located, report);
+  const auto objection = report_implausible(located, report);
   locate_problems(known, located, output, report);
+  if (objection) throw InputError(*objection);
 }
 
 /// Moves all points from the projected frame to the city frame. Its origin is the middle of the buildings, or of the relief if

@@ -188,6 +188,8 @@ constexpr double highest_building_m = 1'200.0;
 /// Roof area times height. Boeing's factory in Everett has 0.014 km³, Beijing's airport terminal below 0.04 km³, and Burj Khalifa
 /// with its podium below 0.1 km³. Bridges and city walls of many kilometres have less roof.
 constexpr double largest_building_m3 = 0.5e9;
+/// The longest buildings have 1.5 km. Bridges and walls are longer, but not as high.
+constexpr double widest_building_m = 2'000.0;
 /// No town, and no group of ten towers, has such a typical height.
 constexpr double highest_median_m = 400.0;
 constexpr double smallest_median_m = 1.0;
@@ -207,6 +209,7 @@ struct BuildingSize {
   [[nodiscard]] bool is_too_large() const {
     return height_m() > highest_building_m || roof_m2 * height_m() > largest_building_m3;
   }
+  [[nodiscard]] bool is_impossible() const { return height_m() > highest_building_m && side_m() > widest_building_m; }
 };
 
 /// Twice the area of a ring in the plan, whichever way it runs.
@@ -245,7 +248,7 @@ double quantile(std::vector<double> values, double share) {
 /// What of a file's buildings is looked at together.
 struct FileSizes {
   std::vector<double> heights_m, sides_m, extents_m, bases_m, x_m, y_m;
-  std::size_t too_large = 0;
+  std::size_t too_large = 0, impossible = 0;
   std::string largest;  ///< the id of the building that is most beyond the limits
   BuildingSize largest_size;
 
@@ -257,6 +260,7 @@ struct FileSizes {
     x_m.push_back(0.5 * (size.box.low.x + size.box.high.x));
     y_m.push_back(0.5 * (size.box.low.y + size.box.high.y));
     too_large += size.is_too_large() ? 1 : 0;
+    impossible += size.is_impossible() ? 1 : 0;
     const auto rank = [](const BuildingSize& s) { return std::pair(s.is_too_large(), s.height_m()); };
     if (largest_size.highest && rank(size) <= rank(largest_size)) return;
     largest = id;
@@ -297,7 +301,9 @@ std::string explanation_of_size(double side_m, double height_m) {
 
 std::string hint_of_format(std::string_view source) {
   if (source.ends_with(".json") || source.ends_with(".jsonl") || source.ends_with(".cityjson"))
-    return " CityJSON multiplies its vertices by \"transform\", which may be missing.";
+    return " CityJSON multiplies its vertices by \"transform\", which may be missing: add it, for millimetres with a \"scale\" "
+           "of "
+           "0.001.";
   if (source.ends_with(".obj")) return " OBJ is read in metres: scale it where it is exported.";
   return " Convert it to metres where it is exported, or name the CRS that counts in its unit.";
 }
@@ -335,9 +341,22 @@ std::optional<std::string> doubt_about_up(const FileSizes& sizes, std::string_vi
          (is_obj ? "Give --up y, or --up z if that is given." : "Export it with z as the upward axis.");
 }
 
+/// Why the whole city cannot be, in words for the first file without a possible building.
+std::optional<std::string> objection_to(const std::vector<FileSizes>& files, const std::vector<std::string>& sources) {
+  std::size_t all = 0, impossible = 0;
+  for (const FileSizes& file : files) {
+    all += file.heights_m.size();
+    impossible += file.impossible;
+  }
+  if (all == 0 || 10 * impossible < 9 * all) return std::nullopt;
+  std::size_t n = 0;
+  while (2 * files[n].impossible <= files[n].heights_m.size()) ++n;
+  return sources[n] + ": no building is this large: " + *doubt_about_size(files[n], sources[n]);
+}
+
 }  // namespace
 
-void report_implausible(const LocatedCity& located, Report& report) {
+std::optional<std::string> report_implausible(const LocatedCity& located, Report& report) {
   std::vector<FileSizes> files(located.sources.size());
   const CityModel& city = located.city;
   city.for_each_building([&](std::size_t, const Building& b) {
@@ -352,6 +371,7 @@ void report_implausible(const LocatedCity& located, Report& report) {
     if (const auto doubt = doubt_about_size(files[n], source)) add(ProblemCode::implausible_size, *doubt);
     if (const auto doubt = doubt_about_up(files[n], source)) add(ProblemCode::lies_on_its_side, *doubt);
   }
+  return objection_to(files, located.sources);
 }
 
 }  // namespace farlod::georeference

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "city/city_model.hpp"
@@ -35,6 +37,9 @@ void leave_out(CityModel& city, const std::vector<MisplacedFacets>& misplaced);
 ///   (1) implausible_size: buildings higher or larger than any on Earth, or a typical building smaller than 1 m
 ///   (2) lies_on_its_side: the ground rises as steeply as no town does, because another axis is the upward one
 /// Coordinates are in metres, in any frame of the output CRS. Positions are as the city has them.
-void report_implausible(const LocatedCity& located, Report& report);
+///
+/// Returns why the city as a whole cannot be: nine of ten of its buildings and more are wider than 2 km and higher than any.
+/// Mountains among the buildings of a town, bridges and meshes of whole towns are no reason.
+[[nodiscard]] std::optional<std::string> report_implausible(const LocatedCity& located, Report& report);
 
 }  // namespace farlod::georeference

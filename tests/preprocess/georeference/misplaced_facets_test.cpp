@@ -134,8 +134,12 @@ class Model {
   }
   [[nodiscard]] std::vector<Problem> problems() const {
     Report report;
-    report_implausible(located_, report);
+    (void)report_implausible(located_, report);
     return report.problems();
+  }
+  [[nodiscard]] std::string refusal() const {
+    Report report;
+    return report_implausible(located_, report).value_or("");
   }
 
  private:
@@ -162,6 +166,17 @@ TEST(ImplausibleModel, CountsInAnotherUnit) {
               AllOf(HasSubstr("are heights in centimetres?"), HasSubstr("name the CRS")));
   for (const Model& model : {Model().town(1, 8000, 7000), Model().town(20, 1200, 800), Model().town(3, 0.012, 0.008)})
     EXPECT_THAT(model.codes(), ElementsAre(208));
+}
+
+TEST(ImplausibleModel, IsRefusedWhereNearlyAllBuildingsAreImpossible) {
+  EXPECT_THAT(Model().town(1, 8000, 7000).refusal(),
+              AllOf(HasSubstr("no building is this large"), HasSubstr("8000 m wide"), HasSubstr("\"scale\" of 0.001")));
+  EXPECT_NE(Model().town(9, 8000, 2500, 1.1).box({}, {900, 900, 900}).refusal(), "") << "huts of 90 cm in millimetres";
+  EXPECT_EQ(Model().town(3, 12, 8).box({}, {9'000, 2'000, 1'900}).refusal(), "") << "a mountain behind houses";
+  EXPECT_EQ(Model().town(20, 1200, 800).refusal(), "") << "centimetres are told";
+  EXPECT_EQ(Model().box({}, {38'000, 12, 60}).refusal(), "") << "a bridge alone";
+  EXPECT_EQ(Model().box({}, {9'000, 9'000, 1'100}).refusal(), "") << "the mesh of a town between hills";
+  EXPECT_EQ(Model().box({}, {12, 9, 9'900}).refusal(), "") << "one wrong vertex of the only building";
 }
 
 TEST(ImplausibleModel, HasOneSlip) {
