@@ -55,6 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
                     unusable("NotXml", "prose.gml -o a.farlod", {"prose.gml is not well-formed XML", "line 1", "XML checker"}),
                     unusable("EmptyXml", "empty.gml -o a.farlod", {"empty.gml is empty: 0 bytes"}),
                     unusable("EmptyObj", "empty.obj -o a.farlod", {"empty.obj is empty: 0 bytes"}),
+                    unusable("PlainText", "text.txt -o a.farlod", {"text.txt is a plain text, which is not read"}),
                     unusable("CutJson", "cut.city.json -o a.farlod", {"cut.city.json is not JSON", "line 1", "cjval"}),
                     unusable("GmlWithoutBuildings", "forest.gml -o a.farlod", {"forest.gml holds no Building", "another theme"}),
                     unusable("CityJsonWithoutBuildings", "forest.city.json -o a.farlod", {"forest.city.json holds no Building"}),

@@ -35,6 +35,7 @@ constexpr ForeignFormat point_cloud{
     "a point cloud", "make a raster of its highest points, by PDAL's writers.gdal with output_type max, and give that"};
 constexpr ForeignFormat parquet{"a table in (Geo)Parquet, for which this GDAL has no driver",
                                 "write it as a GeoPackage, with geopandas, DuckDB or an ogr2ogr that has one"};
+constexpr ForeignFormat plain_text{"a plain text", "give the file of the city that it belongs to"};
 constexpr ForeignFormat inspire{"GML of INSPIRE's buildings",
                                 "ask the publisher for CityGML or footprints, or convert it with hale studio"};
 constexpr ForeignFormat energy_model{"a model of one building for simulations (gbXML, IDF)", "export its bodies as OBJ"};
@@ -75,6 +76,17 @@ bool fits(const KnownBy& by, const std::string& beginning, std::string_view file
   return has_magic && has_words && (by.ending.empty() || ends_with_any(file_name, {by.ending}));
 }
 
+/// Whether a file is a text for people: called like one, without control characters, and of no other format. A city that is
+/// damaged or misnamed is none.
+bool is_plain_text(const InputFile& file, const std::string& beginning, const std::string& name) {
+  const bool is_called_so =
+      ends_with_any(name, {".txt", ".md", ".rst", ".adoc", ".log", ".rtf"}) || !std::filesystem::path(name).has_extension();
+  const bool has_control =
+      std::ranges::any_of(beginning, [](unsigned char c) { return (c < ' ' && (c < '\t' || c > '\r')) || c == 0x7F; });
+  const bool is_marked_up = beginning.starts_with('<') || beginning.starts_with('{') || beginning.starts_with('[');
+  return is_called_so && !beginning.empty() && !has_control && !is_marked_up && format_by_content(file) == FileFormat::unknown;
+}
+
 }  // namespace
 
 const ForeignFormat* foreign_format_of(const InputFile& file) {
@@ -85,6 +97,7 @@ const ForeignFormat* foreign_format_of(const InputFile& file) {
   for (const Row& row : rows)
     if (fits(row.by, beginning, name)) return &row.format;
   if (beginning.starts_with("PAR1") && map_kind_of(file) == MapKind::unknown) return &parquet;
+  if (is_plain_text(file, beginning, name)) return &plain_text;
   return nullptr;
 }
 
