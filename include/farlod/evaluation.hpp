@@ -142,9 +142,10 @@ struct Accuracy {
 /// What a run would take, from a few of its cells (EvaluationSettings::dry_run).
 struct RunEstimate {
   std::size_t cells = 0, evaluated_cells = 0;
-  double receivers = 0.0;     ///< with a value
-  double seconds = 0.0;       ///< of wall clock, without files
-  double memory_bytes = 0.0;  ///< what RunSettings::memory_limit_mib is compared with
+  std::size_t evaluated_receivers = 0;  ///< those of the evaluated cells, or of a small run a share of them
+  double receivers = 0.0;               ///< with a value
+  double seconds = 0.0;                 ///< of wall clock, without files
+  double memory_bytes = 0.0;            ///< what RunSettings::memory_limit_mib is compared with
 };
 
 /// The figures of a run.

@@ -19,7 +19,8 @@ py::dict dict_of(const BoundsWidth& width) { return py::dict("mean_width"_a = wi
 
 py::dict dict_of(const RunEstimate& estimate) {
   constexpr double mib = 1 << 20;
-  return py::dict("cells"_a = estimate.cells, "evaluated_cells"_a = estimate.evaluated_cells, "receivers"_a = estimate.receivers,
+  return py::dict("cells"_a = estimate.cells, "evaluated_cells"_a = estimate.evaluated_cells,
+                  "evaluated_receivers"_a = estimate.evaluated_receivers, "receivers"_a = estimate.receivers,
                   "seconds"_a = estimate.seconds, "memory_mib"_a = estimate.memory_bytes / mib);
 }
 

@@ -120,8 +120,7 @@ void make_folder(const fs::path& folder) {
 
 KeptWork::KeptWork(const SvfOptions& options, const PackageDescription& package)
     : folder_(options.output.string() + ".unfinished"), shard_(options.shard) {
-  // Single places and estimates take no time
-  if (options.source == ReceiverSource::at || options.evaluation.dry_run) return;
+  if (!options.keeps_answers()) return;
   const AnswerKey key = key_of_answers(options, package);
   options.merge ? open_shards(options, key) : open_own(options, key);
 }
@@ -373,14 +372,17 @@ int main(int argc, char** argv) {
   using namespace farlod;
   const Interruption interruption;
   use_bundled_fonts();
-  return run_program({.name = "farlod-svf",
-                      .when_interrupted = "The answers so far are kept: the same command goes on with them.",
+  ProgramName program{.name = "farlod-svf",
+                      .when_interrupted = "Nothing was kept.",
                       .when_out_of_memory = "Evaluate a part at a time (--bbox), or use fewer --threads.",
                       // The library tells what is needed; what decides it are options of this program
-                      .at_limit = " The limit is --memory-limit; --threads, --grid and --bbox decide what is needed; --engine "
-                                  "exact, --verify and --max-error trace the whole city."},
-                     [&] {
-                       const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
-                       return parsed.options ? run(*parsed.options) : parsed.exit_code;
-                     });
+                      .at_limit =
+                          " The limit is --memory-limit; --threads, --grid and --bbox decide what is needed; --engine "
+                          "exact, --verify and --max-error trace the whole city."};
+  return run_program(program, [&] {
+    const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
+    if (parsed.options && parsed.options->keeps_answers())
+      program.when_interrupted = "The answers so far are kept: the same command goes on with them.";
+    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  });
 }

@@ -51,6 +51,8 @@ struct SvfOptions {
 
   /// Estimates write nothing, and shards leave that to whoever merges them.
   [[nodiscard]] bool writes() const { return !evaluation.dry_run && !shard; }
+  /// Whether the answers of a run that is interrupted are kept: single places and estimates take no time.
+  [[nodiscard]] bool keeps_answers() const { return !evaluation.dry_run && source != ReceiverSource::at; }
 };
 
 /// The options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what there is

@@ -30,8 +30,13 @@ Json error_budget_json(const EvaluationSummary& run, double allowed) {
 
 Json json_of(const RunEstimate& estimate, double output_bytes) {
   constexpr double mib = 1 << 20;
-  return {{"cells", estimate.cells},     {"evaluated_cells", estimate.evaluated_cells}, {"receivers", estimate.receivers},
-          {"seconds", estimate.seconds}, {"memory_mib", estimate.memory_bytes / mib},   {"output_mib", output_bytes / mib}};
+  return {{"cells", estimate.cells},
+          {"evaluated_cells", estimate.evaluated_cells},
+          {"evaluated_receivers", estimate.evaluated_receivers},
+          {"receivers", estimate.receivers},
+          {"seconds", estimate.seconds},
+          {"memory_mib", estimate.memory_bytes / mib},
+          {"output_mib", output_bytes / mib}};
 }
 
 Json json_of(const BoundsWidth& width) { return {{"mean_width", width.mean}, {"max_width", width.max}}; }

@@ -6,6 +6,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -283,39 +284,86 @@ struct SampledSeconds {
   }
 };
 
-/// Evaluates cells of a dry run, and tells how long it took.
+/// Cells of which a share of the receivers is evaluated, in two runs of neighbors: those share what costs most.
+class ThinnedCells : public CellsOfRun {
+ public:
+  /// Keeps one of `thinning` receivers.
+  ThinnedCells(CellsOfRun& cells, std::size_t thinning) : cells_(cells), thinning_(thinning) {}
+
+  [[nodiscard]] std::size_t size() const override { return cells_.size(); }
+  [[nodiscard]] Cell place(std::size_t n) const override { return cells_.place(n); }
+  [[nodiscard]] double receivers_about(std::size_t n) const override { return cells_.receivers_about(n); }
+  [[nodiscard]] CellReceivers receivers(std::size_t n) override {
+    CellReceivers cell = cells_.receivers(n);
+    const std::size_t together = cell.receivers.size() / (2 * thinning_) + 1;
+    all_ += cell.receivers.size();
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < cell.receivers.size(); ++k)
+      if (k / together % thinning_ == 0) cell.receivers[kept++] = cell.receivers[k];
+    cell.receivers.resize(kept);
+    kept_ += kept;
+    return cell;
+  }
+  void store(std::size_t, const CellReceivers&, const SvfValues&) override {}
+
+  /// How many receivers stand behind one that was kept.
+  [[nodiscard]] double per_kept() const {
+    return kept_ == 0 ? 1.0 : static_cast<double>(all_.load()) / static_cast<double>(kept_.load());
+  }
+
+ private:
+  CellsOfRun& cells_;
+  std::size_t thinning_;
+  std::atomic<std::size_t> all_ = 0, kept_ = 0;  // several threads ask for receivers
+};
+
+/// Evaluates cells of a dry run, and tells how long it would take with all of their receivers.
 class SampledCells {
  public:
-  SampledCells(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells_of_run)
-      : evaluator_(package, settings.sky, settings.run.stop), settings_(settings), cells_of_run_(cells_of_run) {
+  SampledCells(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells_of_run, std::size_t thinning)
+      : evaluator_(package, settings.sky, settings.run.stop),
+        settings_(settings),
+        cells_of_run_(cells_of_run),
+        thinning_(thinning) {
     settings_.run.answers = nullptr;
   }
 
   double evaluate(std::size_t first, std::size_t end) {
+    ThinnedCells thinned(cells_of_run_, thinning_);
+    const EvaluationStatistics before = evaluator_.statistics();
     const auto start = Clock::now();
     const Tally tally = evaluate_some(
-        evaluator_, settings_, cells_of_run_, end - first, [&](std::size_t k) { return first + k; }, forget);
-    receivers_ += tally.statistics.count;
+        evaluator_, settings_, thinned, end - first, [&](std::size_t k) { return first + k; }, forget);
+    const double taken_s = seconds_since(start);
+    const EvaluationStatistics after = evaluator_.statistics();
+    evaluated_ += tally.statistics.count;
+    receivers_ += thinned.per_kept() * static_cast<double>(tally.statistics.count);
     cells_ += end - first;
-    return seconds_since(start);
+    // A scene is made for all receivers of a cell
+    const EvaluationSeconds parts =
+        seconds_of(taken_s, {{}, after.scenes_s - before.scenes_s, after.evaluate_s - before.evaluate_s}, 0.0);
+    return taken_s + (thinned.per_kept() - 1.0) * parts.evaluate;
   }
   [[nodiscard]] std::size_t cells() const { return cells_; }
-  [[nodiscard]] double receivers_per_cell() const {
-    return cells_ == 0 ? 0.0 : static_cast<double>(receivers_) / static_cast<double>(cells_);
-  }
+  [[nodiscard]] std::size_t receivers() const { return evaluated_; }
+  [[nodiscard]] double receivers_per_cell() const { return cells_ == 0 ? 0.0 : receivers_ / static_cast<double>(cells_); }
 
  private:
   SkyEvaluator evaluator_;
   ResolvedSettings settings_;
   CellsOfRun& cells_of_run_;
-  std::size_t cells_ = 0, receivers_ = 0;
+  std::size_t thinning_, cells_ = 0, evaluated_ = 0;
+  double receivers_ = 0.0;
 };
 
-/// From groups of cells that follow each other, as they do in a run, spread over all.
+/// From groups of cells that follow each other, as they do in a run, spread over all. Where they are more than an eighth of all
+/// cells, some of their receivers are evaluated.
 EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells_of_run) {
-  constexpr std::size_t most_groups = 8, cells_in_group = 6;
+  constexpr std::size_t most_groups = 8, cells_in_group = 6, least_saving = 8;
   const std::size_t cell_count = cells_of_run.size(), groups = std::min(cell_count, most_groups);
-  SampledCells sample(package, settings, cells_of_run);
+  const std::size_t sampled = std::min(cell_count, most_groups * cells_in_group);
+  SampledCells sample(package, settings, cells_of_run,
+                      cell_count == 0 ? 1 : (least_saving * sampled + cell_count - 1) / cell_count);
   SampledSeconds seconds;
   for (std::size_t g = 0; g < groups; ++g) {
     const std::size_t begin = g * cell_count / groups, end = (g + 1) * cell_count / groups;
@@ -327,8 +375,12 @@ EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings&
   const double cells = static_cast<double>(cell_count), edge = static_cast<double>(package.grid().block_edge);
   EvaluationSummary summary;
   summary.accuracy = settings.accuracy;
-  summary.estimate = {cell_count, sample.cells(), cells * sample.receivers_per_cell(),
-                      seconds.of_run(cells, std::ceil(cells / (edge * edge))), 0.0};
+  summary.estimate = {cell_count,
+                      sample.cells(),
+                      sample.receivers(),
+                      cells * sample.receivers_per_cell(),
+                      seconds.of_run(cells, std::ceil(cells / (edge * edge))),
+                      0.0};
   return summary;
 }
 

@@ -186,6 +186,14 @@ TEST_F(DryRun, SaysSoInASentence) {
   EXPECT_EQ(lines_of(outcome.out).size(), 1U);
 }
 
+TEST_F(DryRun, EvaluatesAShareOfASmallTown) {
+  for (const char* options : {"-o o.asc --grid 0.5", "-o o.csv --surfaces all --spacing 0.5"}) {
+    const nlohmann::json estimated = estimate(options);
+    EXPECT_GT(estimated.at("evaluated_receivers"), 100) << options;
+    EXPECT_LT(8.0 * estimated.at("evaluated_receivers").get<double>(), 1.1 * estimated.at("receivers").get<double>()) << options;
+  }
+}
+
 TEST_F(DryRun, KeepsTheMemoryLimit) {
   expect_refusal(folder.run("farlod-svf a.farlod -o o.asc --grid 0.05 --dry-run --memory-limit 60"), exit_limit_reached,
                  {"--memory-limit"});

@@ -51,6 +51,16 @@ TEST_F(InterruptedRuns, EndCleanlyWhenTheyAreAskedTo) {
   EXPECT_TRUE(folder.has("b.farlod.unfinished"));
 }
 
+TEST_F(InterruptedRuns, ThatOnlyEstimateKeepNothing) {
+  // As soon as it has mapped the city
+  const Outcome outcome = folder.run(politely + fine_grid +
+                                     "-o svf.tif --dry-run & p=$!; until grep -q a.farlod /proc/$p/maps; do sleep .01; done; "
+                                     "kill -TERM $p; wait $p");
+  EXPECT_EQ(outcome.exit_code, 143) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted. Nothing was kept."));
+  EXPECT_FALSE(folder.has("svf.tif.unfinished"));
+}
+
 TEST_F(InterruptedRuns, TellReadersThatAPackageIsNotFinished) {
   folder.must("mkdir b.farlod.unfinished");
   expect_refusal(folder.run("farlod-info b.farlod"), exit_unusable_input, {"b.farlod is not finished", "goes on"});
