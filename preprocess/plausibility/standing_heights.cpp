@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "farlod/error.hpp"
+#include "plausibility/elevations_as_heights.hpp"
 
 namespace farlod::plausibility {
 namespace {
@@ -214,6 +215,7 @@ Box2d extent_of_survey(const std::optional<TerrainRaster>& terrain, std::span<co
 }
 
 void report_standing(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
+  require_heights_above_ground(located, ground.height_at);
   std::vector<FileStanding> files(std::max<std::size_t>(located.sources.size(), 1));
   std::size_t all = 0, impossible = 0;
   const CityModel& city = located.city;

@@ -199,7 +199,7 @@ std::optional<FootprintHeights::Height> FootprintHeights::length_in(const std::v
     const LengthUnit unit = unit_of(names_[field]);
     const std::optional<double> length_m =
         value.number ? std::optional(*value.number * metres_in(unit)) : length_m_from(value.text, unit);
-    if (length_m && std::isfinite(*length_m)) return Height{*length_m, said(names_[field], value)};
+    if (length_m && std::isfinite(*length_m)) return Height{*length_m, said(names_[field], value), HeightSource::measured, field};
   }
   return std::nullopt;
 }
@@ -260,11 +260,12 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
                     height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
                         what_they_say(lowest_storeys_, value_of)};
   const Foot foot = lowest_m > 0.0 ? Foot::above_ground : Foot::on_ground;
-  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, foot};
+  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, foot, height.field};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
   if (!may_be_elevation(base->value_m)) return no_elevation(base->said);
-  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source, foot};
+  return PrismExtent{
+      base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source, foot, height.field};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {

@@ -52,6 +52,7 @@ struct PrismExtent {
   HeightReference height_reference = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
   Foot foot = Foot::on_ground;
+  std::optional<std::size_t> height_field = {};  ///< that has the height above the base
 };
 
 /// Why a footprint has no prism.
@@ -82,6 +83,7 @@ class FootprintHeights {
     double value_m = 0.0;
     std::string said;  ///< the field and its value, for the report
     HeightSource source = HeightSource::measured;
+    std::optional<std::size_t> field = {};
   };
 
   [[nodiscard]] bool means_unknown(double number) const;

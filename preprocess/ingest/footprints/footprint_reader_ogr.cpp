@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "base/lower_case.hpp"
 #include "farlod/angle.hpp"
+#include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
@@ -20,6 +22,7 @@
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
+#include "plausibility/elevations_as_heights.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -97,6 +100,13 @@ void flatten(Rings& rings) {
     for (Point3d& p : ring) p.z = 0.0;
 }
 
+double highest_of(const Rings& rings) {
+  double highest = 0.0;
+  if (!rings.empty())
+    for (const Point3d& p : rings.front()) highest = std::max(highest, p.z);
+  return highest;
+}
+
 class FootprintLayer {
  public:
   /// `others`: the names of further layers with areas.
@@ -112,7 +122,9 @@ class FootprintLayer {
     holds_bodies_ = find_bodies();
     if (!holds_bodies_ && !heights_.can_tell())
       throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
-                       ". Name the field with --height-field or --storeys-field, or give all one --default-height" +
+                       ". Name the field with --height-field or --storeys-field, or with --roof-field where it holds "
+                       "elevations (and with --base-field those of the ground, or give a terrain), or give all one "
+                       "--default-height" +
                        (others.empty() ? "." : "; or read another layer, by --layer: " + others + "."));
   }
 
@@ -123,6 +135,7 @@ class FootprintLayer {
       report(messages, id_of(*feature));
     }
     report(messages, layer_.GetName());
+    for (const auto& [field, heights] : said_) plausibility::require_heights(builder_.source(), table_.names()[field], heights);
   }
 
   /// For the user: how many heights are not measured ones.
@@ -231,6 +244,7 @@ class FootprintLayer {
   }
 
   void raise(const OGRFeature& feature, const std::string& id, std::vector<Rings>& polygons) {
+    const double outline_m = highest_of(polygons.front());
     for (Rings& rings : polygons) flatten(rings);
     const FeatureTable::Row row(table_, feature);
     const auto answer = heights_.of([&](std::size_t field) { return row.value(field); });
@@ -241,10 +255,24 @@ class FootprintLayer {
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
+    if (extent.height_field) keep_said(*extent.height_field, extent, polygons.front(), outline_m);
     builder_.begin_building(id, extent.height_reference, extent.foot);
     for (std::size_t part = 0; part < polygons.size(); ++part)
       builder_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
     builder_.end_building("none of its rings is usable");
+  }
+
+  /// Keeps what is said of some buildings, to find out whether it is no height.
+  void keep_said(std::size_t field, const PrismExtent& extent, const Rings& rings, double outline_m) {
+    constexpr std::size_t enough = 10'000;
+    std::vector<plausibility::SaidHeight>& heights = said_[field];
+    if (heights.size() == enough || rings.empty() || rings.front().empty()) return;
+    const bool has_base = extent.height_reference == HeightReference::elevation;
+    Box2d box;
+    for (const Point3d& p : rings.front()) box.add(horizontal(p));
+    const Point2d scale = plan_scale(box.low), size = box.high - box.low;
+    heights.push_back({has_base ? extent.top_m - extent.base_m : extent.top_m, scale.x * size.x * scale.y * size.y, outline_m,
+                       has_base ? std::optional(extent.base_m) : std::nullopt});
   }
 
   /// The factors that bring plan coordinates to the unit of the elevations, exact enough to tell a wall from a floor.
@@ -288,6 +316,7 @@ class FootprintLayer {
   std::vector<int> id_fields_;
   bool holds_bodies_ = false;
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
+  std::map<std::size_t, std::vector<plausibility::SaidHeight>> said_;  ///< by field
 };
 
 /// The names of the layers that hold areas, but for one.
