@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,10 +52,14 @@ void print_problems(const Report& report, const std::string& report_file) {
   if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
 }
 
-/// What makes the whole city doubtful, with what would explain it: before the work, which may take hours and be in vain.
-void print_doubts(std::FILE* out, const Report& report) {
+/// What makes the whole city doubtful, with what would explain it: before the work, which may take hours and be in vain; or with
+/// what ends the run, unless that says it itself.
+void print_doubts(std::FILE* out, const Report& report, std::string_view reason = {}) {
+  const auto is_doubt = [](const Problem& p) { return doubts_the_model(p.code); };
+  const auto is_said = [&](const Problem& p) { return is_doubt(p) && reason.find(p.detail) != reason.npos; };
+  if (std::ranges::any_of(report.problems(), is_said)) return;
   for (const Problem& p : report.problems())
-    if (doubts_the_model(p.code))
+    if (is_doubt(p))
       fmt::print(out, "Doubtful ({} {}): {}{}{}\n", static_cast<int>(p.code), describe(p.code).slug, p.source,
                  p.source.empty() ? "" : ": ", p.detail);
 }
@@ -179,9 +185,9 @@ int run(const PackOptions& options) {
   std::optional<PackResult> result;
   try {
     result = pack_as_told(options, report);
-  } catch (...) {
+  } catch (const std::exception& error) {
     write_report(report, options.report_file);  // what was wrong is wanted most when nothing came of it
-    print_doubts(stderr, report);
+    print_doubts(stderr, report, error.what());
     throw;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -23,6 +23,14 @@ RefusedCommand unusable_packing(const std::string& name, const std::string& opti
 
 constexpr const char* gml_head = "<?xml version=\"1.0\"?>\n<CityModel xmlns=\"http://www.opengis.net/citygml/2.0\">";
 
+/// A house of 8 m × 6 m × 7 m without a transform.
+constexpr const char* house_in_millimetres =
+    R"({"type":"CityJSON","version":"2.0","metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/25832"},)"
+    R"("CityObjects":{"house":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":)"
+    R"([[[0,3,2,1]],[[4,5,6,7]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]}]}},)"
+    R"("vertices":[[690000,5335000,0],[698000,5335000,0],[698000,5341000,0],[690000,5341000,0],)"
+    R"([690000,5335000,7000],[698000,5335000,7000],[698000,5341000,7000],[690000,5341000,7000]]})";
+
 class PackRefuses : public testing::TestWithParam<RefusedCommand> {
  protected:
   PackRefuses() {
@@ -39,6 +47,13 @@ class PackRefuses : public testing::TestWithParam<RefusedCommand> {
     folder.write("cut.city.json", R"({"type":"CityJSON","vers)");
     folder.write("nothing.geojson", R"({"type":"FeatureCollection","features":[]})");
     folder.write("text.txt", "no table");
+    folder.write("alone.city.jsonl", R"({"type":"CityJSONFeature","id":"a","CityObjects":{},"vertices":[]})");
+    folder.write("huge.city.json", house_in_millimetres);
+    std::vector<Block> blocks = small_town();
+    for (Block& block : blocks) block.height_m += 120.0;
+    std::string elevations = footprints_geojson(blocks);
+    for (std::size_t at = 0; (at = elevations.find("height", at)) != elevations.npos;) elevations.replace(at, 6, "nhn");
+    folder.write("elevations.geojson", elevations);
     folder.write("typo.toml", "cel = 40\n");
   }
   WorkFolder folder;
@@ -82,6 +97,11 @@ INSTANTIATE_TEST_SUITE_P(
         unusable_packing("UnknownOutCrs", "--out-crs EPSG:99999", {"--out-crs EPSG:99999"}),
         unusable_packing("OutCrsInDegrees", "--out-crs EPSG:4326", {"EPSG:4326", "not projected", "UTM"}),
         unusable_packing("NoSuchHeightField", "--height-field tall", {"no field \"tall\"", "height, floors", "--height-field"}),
+        unusable("ElevationsAsHeights", "elevations.geojson --height-field nhn -o a.farlod",
+                 {"elevations.geojson: nhn holds elevations", "--roof-field nhn", "--base-field"}),
+        unusable("MillimetresAsMetres", "huge.city.json -o a.farlod",
+                 {"huge.city.json: no building is this large", "8000 m wide", "\"transform\", which may be missing"}),
+        unusable("FeatureWithoutItsHeader", "alone.city.jsonl -o a.farlod", {"alone.city.jsonl holds a CityJSONFeature"}),
         unusable_packing("NoSuchBaseField", "--base-field sea", {"no field \"sea\"", "height, floors", "--base-field"})),
     name_of_refused);
 
