@@ -191,9 +191,33 @@ struct CrownCounts {
   bool operator==(const CrownCounts&) const = default;
 };
 
+/// What the ground between the buildings follows from.
+enum class GroundSource : std::uint8_t {
+  terrain,
+  relief,  ///< of the city files
+  bases,   ///< of buildings
+  nothing  ///< it is flat: footprints do not say where they stand
+};
+
+/// Where a city lies and how high it is: what a person looks at to see whether it is the right one.
+struct CityLooks {
+  struct Heights {
+    double least_m = 0.0, median_m = 0.0, tallest_m = 0.0;  ///< from the lowest point of a building to its highest
+  };
+  struct Ground {
+    double low_m = 0.0, high_m = 0.0;  ///< at the buildings; of a relief, all of it
+    GroundSource source = GroundSource::bases;
+  };
+  std::optional<Point2d> lon_lat_deg;  ///< the middle of the buildings, in WGS 84
+  std::string country;                 ///< that the CRS of the package is meant for; empty where it is not for one alone
+  std::optional<Heights> heights;      ///< none without buildings
+  std::optional<Ground> ground;
+};
+
 /// The counts and measurements of a run.
 struct PackResult {
   PackageDescription package;
+  CityLooks looks;
   Angle street_bearing;              ///< of the dominant direction, clockwise from grid north, in (-45°, 45°]
   double alignment_strength = 0.0;   ///< 0: no direction is preferred; 1: all walls are parallel or perpendicular
   std::optional<ChosenGrid> chosen;  ///< with PackSettings::max_error

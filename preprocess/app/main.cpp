@@ -108,6 +108,27 @@ void print_end(const PackResult& result, const PackOptions& options, double seco
              result.package.triangles, seconds);
 }
 
+/// What a person looks at to see whether it is the right city.
+void print_looks(const CityLooks& looks) {
+  if (const auto& p = looks.lon_lat_deg)
+    fmt::print("Place: latitude {:.4f}, longitude {:.4f}{}\n", p->y, p->x,
+               looks.country.empty() ? "" : " (" + looks.country + ")");
+  if (const auto& h = looks.heights)
+    fmt::print("Heights: least {:.1f} m, median {:.1f} m, tallest {:.1f} m\n", h->least_m, h->median_m, h->tallest_m);
+  if (const auto& g = looks.ground; g && g->source == GroundSource::nothing)
+    fmt::print("Ground: flat, since neither the files nor a terrain tell it\n");
+  else if (g)
+    fmt::print("Ground: {:.1f} m to {:.1f} m, from the {}\n", g->low_m, g->high_m, name_of(g->source));
+}
+
+/// How many buildings are missing; the lines above it say why.
+void print_left_out(std::size_t left_out, std::uint64_t kept) {
+  const auto all = static_cast<double>(left_out + kept);
+  if (left_out > 0)
+    fmt::print("  That is {} of {} buildings left out ({:.1f} %).\n", left_out, left_out + kept,
+               100.0 * static_cast<double>(left_out) / all);
+}
+
 void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
   const PackageDescription& m = result.package;
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
@@ -116,8 +137,10 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   if (result.crowns != CrownCounts{})
     fmt::print("Crowns: {} of trees, {} of cells of a canopy\n", result.crowns.of_trees, result.crowns.of_canopy);
   print_problems(report, options.report_file);
+  print_left_out(buildings_left_out(report), m.buildings);
   print_skipped(result.skipped);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);
+  print_looks(result.looks);
   fmt::print("CRS: {}\n", m.crs_name);
   fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.street_bearing.degrees(),
              (result.street_bearing + m.convergence).degrees(), result.alignment_strength);

@@ -30,6 +30,11 @@ struct ParsedPackOptions {
 /// Hands over the command line, from which the completions are made.
 void describe_pack_options(const CommandLineVisitor& visit);
 
+/// In words: "terrain".
+[[nodiscard]] std::string_view name_of(GroundSource source);
+/// How many buildings have no usable height or surface.
+[[nodiscard]] std::size_t buildings_left_out(const Report& report);
+
 /// The text of `--summary`, with RunOptions::settings_json.
 [[nodiscard]] std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds,
                                             const std::string& settings_json);

@@ -57,7 +57,42 @@ Json json_of(const PackEstimate& estimate) {
           {"package_mib", estimate.package_mib}};
 }
 
+Json json_of(const CityLooks& l) {
+  Json j = Json::object();
+  if (l.lon_lat_deg) {
+    j["latitude"] = l.lon_lat_deg->y;
+    j["longitude"] = l.lon_lat_deg->x;
+  }
+  if (!l.country.empty()) j["country"] = l.country;
+  if (l.heights)
+    j["heights_m"] = {{"least", l.heights->least_m}, {"median", l.heights->median_m}, {"tallest", l.heights->tallest_m}};
+  if (l.ground) j["ground_m"] = {{"low", l.ground->low_m}, {"high", l.ground->high_m}, {"from", name_of(l.ground->source)}};
+  return j;
+}
+
 }  // namespace
+
+std::string_view name_of(GroundSource source) {
+  switch (source) {
+    case GroundSource::terrain:
+      return "terrain";
+    case GroundSource::relief:
+      return "relief";
+    case GroundSource::bases:
+      return "bases of buildings";
+    case GroundSource::nothing:
+      break;
+  }
+  return "nothing";
+}
+
+std::size_t buildings_left_out(const Report& report) {
+  std::size_t count = 0;
+  for (const ProblemCode code :
+       {ProblemCode::no_height, ProblemCode::height_not_positive, ProblemCode::no_geometry, ProblemCode::absurd_height})
+    count += report.count(code);
+  return count;
+}
 
 std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds,
                               const std::string& settings_json) {
@@ -79,9 +114,9 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"peak_memory_mib", peak_memory_mib()},
             {"package_bytes", result.package_bytes},
             {"far_map_bytes", result.far_map_bytes},
-            {"blocks", result.blocks},
-            {"blocks_finished_before", result.blocks_found},
             {"estimate", json_of(result.estimate)}};
+  j.update(Json{{"blocks", result.blocks}, {"blocks_finished_before", result.blocks_found}});
+  j.update(Json{{"buildings_left_out", buildings_left_out(report)}, {"looks", json_of(result.looks)}});
   if (!result.skipped.empty()) j["skipped"] = result.skipped;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);
   j["settings"] = Json::parse(settings_json);

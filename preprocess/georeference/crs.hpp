@@ -102,6 +102,8 @@ class Crs {
   /// WKT2:2019 in the axis order of the authority. If the EPSG register has the CRS, it is the WKT of that entry.
   [[nodiscard]] std::string wkt() const;
   [[nodiscard]] std::optional<AreaOfUse> area_of_use() const;
+  /// The name of that area in the register: "Netherlands - onshore, including Waddenzee". Empty where it is not known.
+  [[nodiscard]] std::string area_name() const;
   [[nodiscard]] Ellipsoid ellipsoid() const;
   /// The zone of a UTM projection in metres whose eastings have no zone number; else empty.
   [[nodiscard]] std::optional<UtmZone> utm_zone() const;

@@ -231,6 +231,13 @@ std::optional<AreaOfUse> Crs::area_of_use() const {
   return a.west_deg == unknown ? std::nullopt : std::optional(a);
 }
 
+std::string Crs::area_name() const {
+  const char* name = nullptr;
+  const bool is_known =
+      proj_get_area_of_use(impl_->context.get(), impl_->registered.get(), nullptr, nullptr, nullptr, nullptr, &name) != 0;
+  return is_known && name != nullptr ? name : "";
+}
+
 Ellipsoid Crs::ellipsoid() const {
   Ellipsoid e;
   const Object found(proj_get_ellipsoid(impl_->context.get(), impl_->plain.get()));

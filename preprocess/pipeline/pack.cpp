@@ -18,6 +18,7 @@
 #include "package/crowns_of_city.hpp"
 #include "package/sources_file.hpp"
 #include "pipeline/blocks.hpp"
+#include "pipeline/city_looks.hpp"
 #include "pipeline/city_reading.hpp"
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_target.hpp"
@@ -160,6 +161,7 @@ class Packing {
   void take_findings(ReadCity& city) {
     sources_ = sources_of(origin_, std::move(city.located.placed));
     PackedCity& result = record_.result;
+    result.looks = looks_of(city);
     result.street_bearing = city.ground.streets.bearing;
     result.alignment_strength = city.ground.streets.strength;
     result.skipped = std::move(city.skipped);

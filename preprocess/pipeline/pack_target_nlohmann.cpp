@@ -104,8 +104,26 @@ ChosenGrid chosen_from(const Json& j) {
 Json json_of(const PackEstimate& e) { return {e.cells, e.far_maps, e.seconds, e.memory_mib, e.package_mib, e.least_memory_mib}; }
 PackEstimate estimate_from(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), j.at(5)}; }
 
+Json json_of(const CityLooks& l) {
+  Json j = {{"country", l.country}};
+  if (l.lon_lat_deg) j["lon_lat"] = {l.lon_lat_deg->x, l.lon_lat_deg->y};
+  if (l.heights) j["heights"] = {l.heights->least_m, l.heights->median_m, l.heights->tallest_m};
+  if (l.ground) j["ground"] = {l.ground->low_m, l.ground->high_m, l.ground->source};
+  return j;
+}
+CityLooks looks_from(const Json& j) {
+  CityLooks looks;
+  looks.country = j.at("country");
+  if (const auto p = j.find("lon_lat"); p != j.end()) looks.lon_lat_deg = Point2d{p->at(0), p->at(1)};
+  if (const auto h = j.find("heights"); h != j.end()) looks.heights = CityLooks::Heights{h->at(0), h->at(1), h->at(2)};
+  if (const auto g = j.find("ground"); g != j.end())
+    looks.ground = CityLooks::Ground{g->at(0), g->at(1), g->at(2).get<GroundSource>()};
+  return looks;
+}
+
 Json json_of(const PackedCity& r) {
   return {{"manifest", json_of(r.manifest)},
+          {"looks", json_of(r.looks)},
           {"streets", {r.street_bearing.radians(), r.alignment_strength}},
           {"chosen", r.chosen ? json_of(*r.chosen) : Json()},
           {"facets", r.facets},
@@ -118,6 +136,7 @@ Json json_of(const PackedCity& r) {
 PackedCity result_from(const Json& j) {
   PackedCity r;
   r.manifest = manifest_from(j.at("manifest"));
+  r.looks = looks_from(j.at("looks"));
   r.street_bearing = Angle::radians(j.at("streets").at(0));
   r.alignment_strength = j.at("streets").at(1);
   if (!j.at("chosen").is_null()) r.chosen = chosen_from(j.at("chosen"));

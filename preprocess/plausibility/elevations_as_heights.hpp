@@ -25,7 +25,7 @@ struct SaidHeight {
 ///   (2) the field is called like an elevation, and no building is lower than 20 m
 ///   (3) all buildings are higher than 40 m, and six times as high as they are wide
 ///   (4) houses stand on ground of 20 m and higher, and each would be 1.5 to 40 m high if its height counted from sea level
-/// One of twenty may be otherwise, and three must be there, five for (3), eight for (4).
+/// One of twenty may be otherwise, and three must be there, five for (3) and (4).
 [[nodiscard]] std::optional<std::string> sign_of_elevations(std::span<const SaidHeight> heights, std::string_view field);
 
 /// Throws InputError where the heights of a field of a file are elevations.

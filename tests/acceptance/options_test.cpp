@@ -244,6 +244,30 @@ TEST_F(PackedTown, SummaryOfPackTellsTheFiguresOfThePackage) {
   EXPECT_GT(summary.at("peak_memory_mib"), 1.0);
 }
 
+TEST_F(PackedTown, IsShownToPeopleWhenItIsPacked) {
+  const std::string out = folder.run("farlod-pack town.geojson -o b.farlod --out-crs EPSG:31467 --summary s.json").out;
+  const nlohmann::json looks = folder.json_of("s.json").at("looks");
+  // The central meridian, and the latitude of a northing of 5,500 km by the GRS 80 ellipsoid
+  EXPECT_NEAR(looks.at("longitude"), 9.0, 0.002);
+  EXPECT_NEAR(looks.at("latitude"), 49.6526, 0.002);
+  EXPECT_EQ(looks.at("country"), "Germany");
+  EXPECT_EQ(looks.at("heights_m").at("least"), 8.0);
+  EXPECT_EQ(looks.at("heights_m").at("tallest"), tower_height_m);
+  EXPECT_EQ(looks.at("ground_m"), (nlohmann::json{{"low", 0.0}, {"high", 0.0}, {"from", "nothing"}}));
+  EXPECT_THAT(out, AllOf(HasSubstr("Place: latitude 49.65"), HasSubstr("(Germany)"), HasSubstr("Heights: least 8.0 m, median "),
+                         HasSubstr("tallest 90.0 m"), HasSubstr("Ground: flat, since neither")));
+}
+
+TEST_F(PackedTown, TellsTheShareOfBuildingsThatAreLeftOut) {
+  std::string town = footprints_geojson(small_town());
+  town.replace(town.find("\"height\""), 8, "\"tallness\"");
+  town.replace(town.find("\"floors\""), 8, "\"storage\"");
+  folder.write("holes.geojson", town);
+  const std::string out = folder.run("farlod-pack holes.geojson -o b.farlod --summary s.json").out;
+  EXPECT_THAT(out, HasSubstr("That is 1 of 36 buildings left out (2.8 %)."));
+  EXPECT_EQ(folder.json_of("s.json").at("buildings_left_out"), 1);
+}
+
 TEST_F(PackedTown, SecondsOfThePackStagesFitIntoTheTotal) {
   folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
   const nlohmann::json seconds = folder.json_of("s.json").at("seconds");

@@ -58,7 +58,7 @@ bool is_cityjson(const InputFile& file) {
 }
 
 bool is_header_of_features(const InputFile& file) {
-  constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
+  constexpr std::size_t most_header_bytes = std::size_t{1} << 26;
   if (lower_case(file.unpacked_name()) != "metadata.json") return false;
   const json header = json::parse(read_beginning(file, most_header_bytes), nullptr, false);
   const auto type = header.find("type"), objects = header.find("CityObjects");

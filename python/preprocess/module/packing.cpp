@@ -73,6 +73,13 @@ py::dict dict_of(const PackResult& result) {
                  "facets"_a = result.facets, "foundations"_a = result.foundations, "crowns_of_trees"_a = result.crowns.of_trees,
                  "crowns_of_canopy"_a = result.crowns.of_canopy, "skipped"_a = result.skipped, "notes"_a = result.notes,
                  "package_bytes"_a = result.package_bytes, "far_map_bytes"_a = result.far_map_bytes, "seconds"_a = seconds);
+  if (const auto& p = result.looks.lon_lat_deg) {
+    facts["latitude"] = p->y;
+    facts["longitude"] = p->x;
+  }
+  if (const auto& h = result.looks.heights)
+    facts["heights_m"] = py::dict("least"_a = h->least_m, "median"_a = h->median_m, "tallest"_a = h->tallest_m);
+  if (const auto& g = result.looks.ground) facts["ground_m"] = py::make_tuple(g->low_m, g->high_m);
   if (result.chosen)
     facts["error_on_trial"] = py::dict("mean"_a = result.chosen->measured.mean_error, "max"_a = result.chosen->measured.max_error,
                                        "receivers"_a = result.chosen->measured.receivers);

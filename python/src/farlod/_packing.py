@@ -54,6 +54,7 @@ class Report:
     problems : list of Problem
         In the order in which they were met.
     facts : mapping
+        ``latitude`` and ``longitude`` of the middle (WGS 84), ``heights_m`` of buildings, the range ``ground_m`` of the ground,
         ``street_bearing_deg``, ``alignment_strength``, ``skipped`` features, ``notes``, ``package_bytes``, ``seconds`` of each
         stage, ...
     """

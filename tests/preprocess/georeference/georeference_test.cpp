@@ -8,6 +8,7 @@
 
 #include "farlod/error.hpp"
 #include "georeference/crs.hpp"
+#include "georeference/resolved_source.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 #include "tests/scenes/refusal.hpp"
 
@@ -337,6 +338,30 @@ TEST(Relief, IsNotTakenForDegreesNorDegreesForMetres) {
 TEST(Relief, MayBeOnePoint) {
   Report report;
   EXPECT_EQ(georeference({relief_with("EPSG:28992", {rotterdam, rotterdam})}, {}, report).relief_points.size(), 2u);
+}
+
+TEST(Place, IsInWgs84) {
+  const PlaceOnEarth place = place_of(georeference_around({155000.0, 463000.0}, *Crs::find("EPSG:28992")));
+  // RD New begins at the Onze Lieve Vrouwetoren of Amersfoort: 52.1551729 N, 5.3872035 E in ETRS89
+  ASSERT_TRUE(place.lon_lat_deg);
+  constexpr double some_metres_deg = 1e-4;
+  EXPECT_NEAR(place.lon_lat_deg->x, 5.3872035, some_metres_deg);
+  EXPECT_NEAR(place.lon_lat_deg->y, 52.1551729, some_metres_deg);
+  EXPECT_EQ(place.country, "Netherlands");
+}
+
+TEST(Place, HasNoCountryBesideTheAreaOfItsCrs) {
+  EXPECT_EQ(place_of(georeference_around({500000.0, 5000000.0}, *Crs::find("EPSG:28992"))).country, "");
+}
+
+TEST(Place, IsInACountryWhereTheAreaIsThatOfOne) {
+  EXPECT_EQ(country_in("Netherlands - onshore, including Waddenzee, and 12-mile offshore coastal zone."), "Netherlands");
+  EXPECT_EQ(country_in("Liechtenstein; Switzerland."), "Liechtenstein; Switzerland");
+  EXPECT_EQ(country_in("Austria."), "Austria");
+  for (const char* none :
+       {"World.", "Europe - west.", "Between 6°E and 12°E, northern hemisphere, onshore and offshore.",
+        "Japan - onshore; North Korea - onshore; South Korea - onshore.", "Burundi, Kenya, Rwanda, Tanzania and Uganda.", ""})
+    EXPECT_EQ(country_in(none), "") << none;
 }
 
 }  // namespace

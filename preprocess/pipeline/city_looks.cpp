@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/city_looks.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "georeference/resolved_source.hpp"
+
+namespace farlod::pipeline {
+namespace {
+
+/// The range of some heights.
+struct HeightRange {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] bool is_empty() const { return low > high; }
+};
+
+CityLooks::Heights heights_in(std::vector<double> heights_m) {
+  const auto [least, most] = std::minmax_element(heights_m.begin(), heights_m.end());
+  const CityLooks::Heights ends{*least, 0.0, *most};
+  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
+  return {ends.least_m, *middle, ends.tallest_m};
+}
+
+GroundSource source_of(const ReadCity& city) {
+  if (city.ground.terrain) return GroundSource::terrain;
+  if (!city.located.relief_points.empty()) return GroundSource::relief;
+  const auto buildings = city.located.city.buildings();
+  const bool knows_bases = std::any_of(buildings.begin(), buildings.end(), [](const Building& b) {
+    return b.height_reference == HeightReference::elevation && b.foot != Foot::above_ground;
+  });
+  return knows_bases ? GroundSource::bases : GroundSource::nothing;
+}
+
+std::optional<double> survey_at(const ReadCity& city, Point2d p_city) {
+  return city.ground.terrain ? city.ground.terrain->height_at(p_city) : std::nullopt;
+}
+
+/// Goes through the buildings once.
+void look_at_buildings(const ReadCity& city, CityLooks& looks) {
+  const CityModel& model = city.located.city;
+  const GroundSource source = source_of(city);
+  std::vector<double> heights_m;
+  HeightRange ground;
+  model.for_each_building([&](std::size_t, const Building& b) {
+    HeightRange z;
+    Box2d box;
+    for (const Point3d& p : model.points_of(b)) {
+      z.add(p.z);
+      box.add(horizontal(p));
+    }
+    if (z.is_empty()) return;
+    const auto survey_m = survey_at(city, 0.5 * (box.low + box.high));
+    if (survey_m) ground.add(*survey_m);
+    if (source == GroundSource::bases && b.foot != Foot::above_ground) ground.add(z.low);
+    if (b.height_reference != HeightReference::down_to_ground)
+      heights_m.push_back(z.high - z.low);
+    else if (survey_m && z.high > *survey_m)
+      heights_m.push_back(z.high - *survey_m);
+  });
+  if (source == GroundSource::relief)
+    for (const Point3d& p : city.located.relief_points) ground.add(p.z);
+  if (!heights_m.empty()) looks.heights = heights_in(std::move(heights_m));
+  if (source == GroundSource::nothing) ground.add(0.0);
+  if (!ground.is_empty()) looks.ground = CityLooks::Ground{ground.low, ground.high, source};
+}
+
+}  // namespace
+
+CityLooks looks_of(const ReadCity& city) {
+  CityLooks looks;
+  const georeference::PlaceOnEarth place = georeference::place_of(city.located.georeference);
+  looks.lon_lat_deg = place.lon_lat_deg;
+  looks.country = place.country;
+  if (!city.located.city.buildings().empty()) look_at_buildings(city, looks);
+  return looks;
+}
+
+}  // namespace farlod::pipeline
