@@ -64,10 +64,11 @@ def village(village_path: str) -> farlod.City:
 
 @pytest.fixture(scope="session")
 def bridges_path(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """A city with overhangs."""
-    path = str(tmp_path_factory.mktemp("bridges") / "bridges.farlod")
-    farlod.pack(SAMPLES / "bridges.city.json", path, cell=40.0, report=False).close()
-    return path
+    """A town's centre with bridges, arcades, courts and a tower."""
+    folder = tmp_path_factory.mktemp("bridges")
+    run_program("farlod-city", "-o", folder / "bridges.city.json", *"--size 300 --seed 7 --rotation 29 --lod 2 --overhangs".split())
+    farlod.pack(folder / "bridges.city.json", folder / "bridges.farlod", cell=40.0, report=False).close()
+    return str(folder / "bridges.farlod")
 
 
 #: Height and width of the street of `canyon`, whose axis runs from south to north at x = 690000, y = 5335000.

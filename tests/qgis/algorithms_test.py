@@ -151,7 +151,8 @@ class Pack(QgisTest):
         self.assertEqual(self.new_names(), ["odd.farlod", "odd.geojson"])
 
     def test_several_files_become_one_city(self) -> None:
-        files = [SAMPLES / "village.gml", SAMPLES / "bridges.city.json"]
+        program("farlod-city", "-o", WORK / "bridges.city.json", "--size", 300, "--lod", 2, "--overhangs")
+        files = [SAMPLES / "village.gml", WORK / "bridges.city.json"]
         said = algorithm("pack", INPUT=files, OUTPUT=WORK / "both.farlod")
         program("farlod-pack", *files, "-o", WORK / "expected_both.farlod", "--quiet")
         must("diff", "--recursive", WORK / "expected_both.farlod", WORK / "both.farlod")
