@@ -25,7 +25,7 @@ namespace farlod {
 
 // The library farlod::preprocess has what follows. It is under GPL-3.0-or-later, as CGAL's packages are that it uses.
 
-/// Which axis of an OBJ file points upwards.
+/// Which axis of a mesh points upwards.
 enum class UpAxis { z, y };
 
 /// How the grid lies.
@@ -113,9 +113,11 @@ struct PackSettings {
 
   std::string crs;                    ///< "EPSG:n", of inputs that do not say; of all, where each says its own; may be empty
   std::string out_crs;                ///< of the package: projected, in metres; empty: the input's, or UTM for degrees
-  std::optional<Point3d> obj_origin;  ///< added to the coordinates of OBJ files
-  UpAxis up = UpAxis::z;              ///< of OBJ files
-  std::optional<int> lod;             ///< level of detail to read, 0 to 3; empty: the best from 1 to 3
+  std::optional<Point3d> obj_origin;  ///< added to the coordinates of meshes: OBJ, STL, PLY and GLB files
+  std::optional<UpAxis> up;           ///< of meshes; empty: y of GLB, z of others
+  /// Words by which objects, groups and materials of meshes are ground, besides those that docs/stages/ingest.md lists.
+  std::vector<std::string> ground_names;
+  std::optional<int> lod;  ///< level of detail to read, 0 to 3; empty: the best from 1 to 3
   FootprintSettings footprints;
   TreeSettings trees;
 
@@ -234,6 +236,14 @@ struct PackResult {
   /// In the order in which the stages ran. The package is written while far maps are baked, so that these two overlap.
   std::vector<std::pair<std::string, double>> stage_seconds;
 };
+
+/// The formats of city files that are read, for help and messages. Besides, footprints come in any vector format of GDAL.
+struct InputFormatNames {
+  std::string all;     ///< "CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ and GLB"
+  std::string meshes;  ///< those that PackSettings::obj_origin, `up` and `ground_names` are about
+  std::string piped;   ///< those that may come through a pipe
+};
+[[nodiscard]] FARLOD_EXPORT InputFormatNames input_format_names();
 
 /// Called before the long stages with what they are expected to need.
 using OnEstimate = std::function<void(const PackEstimate&)>;

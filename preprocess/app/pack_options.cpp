@@ -18,6 +18,7 @@ namespace farlod {
 namespace {
 
 ProgramDescription pack_program() {
+  const InputFormatNames formats = input_format_names();
   return {
       .name = "farlod-pack",
       .purpose = "cuts a city model into a package of cells with far maps, from which farlod-svf computes sky view factors",
@@ -30,9 +31,10 @@ ProgramDescription pack_program() {
                      "A package is made in NAME.farlod.unfinished, and gets its name in one step when it is whole. A run that "
                      "is interrupted leaves there what it has finished, and the same command goes on with it. One package may be "
                      "made by several processes, on several machines: --shard and --merge.",
-                     "Reads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, "
-                     "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city. "
-                     "CityGML and OBJ may come through a pipe; - is the standard input."},
+                     "Reads " + formats.all +
+                         ", besides footprints in any vector format of GDAL (GeoJSON, GeoPackage, Shapefile "
+                         "…); also from folders, .zip and .gz. Several inputs become one city. " +
+                         formats.piped + " may come through a pipe; - is the standard input."},
       .exit_codes = {{exit_done, "done"},
                      {exit_internal, "an internal error"},
                      {exit_usage, "a wrong command line"},
@@ -46,7 +48,7 @@ ProgramDescription pack_program() {
 /// Options whose text is resolved after CLI11 has parsed them.
 struct RawOptions {
   std::vector<std::string> inputs;
-  std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
+  std::string output, origin, up = "auto", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::optional<std::string> area;
   std::string terrain, height_field, base_field, storeys_field, roof_field, layer, encoding;
   std::vector<std::string> trees, far_terrains;
@@ -81,10 +83,16 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Input");
   app.add_option("--out-crs", o.settings.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")
       ->group("Input");
-  app.add_option("--origin", raw.origin, "X,Y[,Z] added to the coordinates of OBJ files")->group("Input");
-  app.add_option("--up", raw.up, "Axis that points up in OBJ files")
-      ->check(CLI::IsMember({"z", "y"}))
+  const std::string meshes = input_format_names().meshes + " files";
+  app.add_option("--origin", raw.origin, "X,Y[,Z] added to the coordinates of " + meshes)->group("Input");
+  app.add_option("--up", raw.up, "Axis that points up in these; auto: as the format has it, y in GLB and z in others")
+      ->check(CLI::IsMember({"auto", "z", "y"}))
       ->capture_default_str()
+      ->group("Input");
+  app.add_option("--ground-names", o.settings.ground_names,
+                 "Words by which objects, groups or materials in these are ground, such as Gelaende,Strasse; besides Terrain, "
+                 "Road, Water and others")
+      ->delimiter(',')
       ->group("Input");
   app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")
       ->group("Input");
@@ -320,7 +328,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");
   if (!raw.origin.empty()) s.obj_origin = parse_origin(raw.origin);
-  s.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
+  if (raw.up != "auto") s.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
   if (raw.lod != "best") s.lod = std::stoi(raw.lod);
   resolve_fields(raw, s.footprints);
   resolve_alignment(raw.align, s);

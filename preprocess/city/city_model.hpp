@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/expects.hpp"
@@ -133,6 +134,12 @@ struct SourceCrs {
   bool heights_in_metres = false;
 };
 
+/// What a user can do about coordinates that are wrong, which depends on the format of the file: sentences for messages.
+struct FormatAdvice {
+  std::string_view scale = "Convert it to metres where it is exported, or name the CRS that counts in its unit.";
+  std::string_view up = "Export it with z as the upward axis.";
+};
+
 /// A city file into whose text attributes can be inserted: CityModel::origin_of has the places.
 struct PlacedFile {
   std::filesystem::path path;
@@ -149,6 +156,7 @@ struct SourceCity {
   SkippedFeatures skipped = {};
   std::vector<std::string> notes = {};  ///< for the user: what was taken from elsewhere, or guessed
   std::optional<PlacedFile> placed = {};
+  FormatAdvice advice = {};
 };
 
 /// Where the city frame lies on the Earth.
@@ -168,6 +176,7 @@ struct LocatedCity {
   std::vector<std::string> sources = {};               ///< names of the files, for messages
   std::vector<Point3d> relief_points = {};             ///< points of the ground that the files give as terrain
   std::vector<std::optional<PlacedFile>> placed = {};  ///< of the sources: empty where attributes have no places
+  std::vector<FormatAdvice> advice = {};               ///< of the sources
 };
 
 /// No building is higher: the highest has 828 m.

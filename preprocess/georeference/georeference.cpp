@@ -224,6 +224,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
     resolved.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
     located.sources.push_back(resolved.source.source);
     located.placed.push_back(std::move(resolved.source.placed));
+    located.advice.push_back(resolved.source.advice);
     located.city.append(std::move(resolved.source.city));
     append(located.relief_points, std::move(resolved.source.relief_points));
   }

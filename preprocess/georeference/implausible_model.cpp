@@ -299,16 +299,7 @@ std::string explanation_of_size(double side_m, double height_m) {
   return "what is the unit of the coordinates, and is each vertex right?";
 }
 
-std::string hint_of_format(std::string_view source) {
-  if (source.ends_with(".json") || source.ends_with(".jsonl") || source.ends_with(".cityjson"))
-    return " CityJSON multiplies its vertices by \"transform\", which may be missing: add it, for millimetres with a \"scale\" "
-           "of "
-           "0.001.";
-  if (source.ends_with(".obj")) return " OBJ is read in metres: scale it where it is exported.";
-  return " Convert it to metres where it is exported, or name the CRS that counts in its unit.";
-}
-
-std::optional<std::string> doubt_about_size(const FileSizes& sizes, std::string_view source) {
+std::optional<std::string> doubt_about_size(const FileSizes& sizes, const FormatAdvice& advice) {
   const std::size_t count = sizes.heights_m.size();
   const double height_m = quantile(sizes.heights_m, 0.5), side_m = quantile(sizes.sides_m, 0.5);
   const bool is_tiny = quantile(sizes.extents_m, 0.5) < smallest_median_m;
@@ -320,8 +311,8 @@ std::optional<std::string> doubt_about_size(const FileSizes& sizes, std::string_
            metres_of(sizes.largest_size.height_m()) + " high and " + metres_of(sizes.largest_size.side_m()) +
            " wide: is one of its vertices wrong, or is it no building?";
   return "of " + all + ", a typical one is " + metres_of(side_m) + " wide and " + metres_of(height_m) + " high, the highest, " +
-         sizes.largest + ", " + metres_of(sizes.largest_size.height_m()) + ": " + explanation_of_size(side_m, height_m) +
-         hint_of_format(source);
+         sizes.largest + ", " + metres_of(sizes.largest_size.height_m()) + ": " + explanation_of_size(side_m, height_m) + " " +
+         std::string(advice.scale);
 }
 
 double spread(const std::vector<double>& values) {
@@ -329,20 +320,19 @@ double spread(const std::vector<double>& values) {
   return quantile(values, 1.0 - tail) - quantile(values, tail);
 }
 
-std::optional<std::string> doubt_about_up(const FileSizes& sizes, std::string_view source) {
+std::optional<std::string> doubt_about_up(const FileSizes& sizes, const FormatAdvice& advice) {
   if (sizes.bases_m.size() < enough_for_median) return std::nullopt;
   const double climb_m = spread(sizes.bases_m), x_m = spread(sizes.x_m), y_m = spread(sizes.y_m);
   const bool is_steep = climb_m >= least_climb_m && climb_m >= steepest_town * std::max(x_m, y_m) &&
                         climb_m >= least_climb_to_shorter_side * std::min(x_m, y_m);
   if (!is_steep) return std::nullopt;
-  const bool is_obj = source.ends_with(".obj");
   return "its buildings stand at heights that differ by " + metres_of(climb_m) + ", on ground of " +
          metres_of(std::max(x_m, y_m)) + " by " + metres_of(std::min(x_m, y_m)) + ": the model seems to lie on its side. " +
-         (is_obj ? "Give --up y, or --up z if that is given." : "Export it with z as the upward axis.");
+         std::string(advice.up);
 }
 
 /// Why the whole city cannot be, in words for the first file without a possible building.
-std::optional<std::string> objection_to(const std::vector<FileSizes>& files, const std::vector<std::string>& sources) {
+std::optional<std::string> objection_to(const std::vector<FileSizes>& files, const LocatedCity& located) {
   std::size_t all = 0, impossible = 0;
   for (const FileSizes& file : files) {
     all += file.heights_m.size();
@@ -351,7 +341,7 @@ std::optional<std::string> objection_to(const std::vector<FileSizes>& files, con
   if (all == 0 || 10 * impossible < 9 * all) return std::nullopt;
   std::size_t n = 0;
   while (2 * files[n].impossible <= files[n].heights_m.size()) ++n;
-  return sources[n] + ": no building is this large: " + *doubt_about_size(files[n], sources[n]);
+  return located.sources[n] + ": no building is this large: " + *doubt_about_size(files[n], located.advice[n]);
 }
 
 }  // namespace
@@ -364,14 +354,14 @@ std::optional<std::string> report_implausible(const LocatedCity& located, Report
   });
   for (std::size_t n = 0; n < files.size(); ++n) {
     if (files[n].heights_m.empty()) continue;
-    const std::string& source = located.sources[n];
+    const FormatAdvice& advice = located.advice[n];
     const auto add = [&](ProblemCode code, const std::string& detail) {
-      report.add({code, source, "the whole file", detail, files[n].largest_size.highest});
+      report.add({code, located.sources[n], "the whole file", detail, files[n].largest_size.highest});
     };
-    if (const auto doubt = doubt_about_size(files[n], source)) add(ProblemCode::implausible_size, *doubt);
-    if (const auto doubt = doubt_about_up(files[n], source)) add(ProblemCode::lies_on_its_side, *doubt);
+    if (const auto doubt = doubt_about_size(files[n], advice)) add(ProblemCode::implausible_size, *doubt);
+    if (const auto doubt = doubt_about_up(files[n], advice)) add(ProblemCode::lies_on_its_side, *doubt);
   }
-  return objection_to(files, located.sources);
+  return objection_to(files, located);
 }
 
 }  // namespace farlod::georeference

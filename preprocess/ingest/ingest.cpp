@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
+#include <span>
 #include <utility>
 
 #include "base/cancellation.hpp"
@@ -13,6 +15,10 @@
 #include "ingest/files/file_format.hpp"
 #include "ingest/files/foreign_format.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
+#include "ingest/mesh/mesh_buildings.hpp"
+#include "ingest/mesh/mesh_placement.hpp"
+#include "ingest/mesh/mesh_scanners.hpp"
+#include "ingest/obj/obj_scanner.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -39,8 +45,17 @@ void require_content(const InputFile& file) {
   if (is_empty(file)) throw InputError(file.name + " is empty: 0 bytes. Was the download cut short?");
 }
 
+bool has_reader(FileFormat format) {
+  const std::span<const InputFormat> formats = input_formats();
+  return std::any_of(formats.begin(), formats.end(),
+                     [&](const InputFormat& known) { return known.format == format && known.is_this != nullptr; });
+}
+
 FileFormat format_of(const InputFile& file, Report& report) {
   const FileFormat format = format_by_content(file);
+  if (const ForeignFormat* foreign = has_reader(format) ? nullptr : foreign_format_of(file))
+    throw InputError(file.name + " is " + std::string(foreign->name) + ", which is not read: " + std::string(foreign->advice) +
+                     ".");
   if (format == FileFormat::unknown) return format_by_name(file);
   const std::string name = file.unpacked_name();
   if (!name_allows(name, format))
@@ -49,18 +64,32 @@ FileFormat format_of(const InputFile& file, Report& report) {
   return format;
 }
 
-SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
-  const ObjPlacement placement = find_obj_placement(file);
+std::string text_of(const std::map<std::string, std::uint64_t>& ground_faces) {
+  std::string text;
+  for (const auto& [name, count] : ground_faces) text += (text.empty() ? "" : ", ") + std::to_string(count) + " of " + name;
+  return text;
+}
+
+SourceCity ingest_mesh(const Mesh& mesh, const InputFile& file, const IngestSettings& settings, Report& report,
+                       const std::stop_token& stop) {
+  if (mesh.faces.empty())
+    throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
+                     " vertices and no face: it is no mesh, or it is a point cloud. Export it as a polygon mesh.");
+  const MeshPlacement placement = find_mesh_placement(file);
   const Point3d origin = settings.obj_origin ? *settings.obj_origin : placement.origin.value_or(Point3d{});
   CityModelBuilder builder(file.name, report);
-  ObjRest rest = read_obj(file, {origin, settings.up}, builder, stop);
+  MeshRest rest =
+      add_buildings(mesh, {mesh.origin + origin, settings.up.value_or(mesh.up)}, settings.ground_names, builder, stop);
+  std::vector<std::string> notes = notes_of(placement, file, settings.obj_origin.has_value());
+  if (!rest.ground_faces.empty())
+    notes.push_back(file.name + ": faces that are ground by their names: " + text_of(rest.ground_faces));
   // Meshes have x to the east, whatever the order of axes in the definition of the CRS
   return {.source = file.name,
           .crs = {placement.crs, true, false},
           .city = builder.take_city(),
           .relief_points = std::move(rest.relief_points),
           .skipped = std::move(rest.skipped),
-          .notes = notes_of(placement, file, settings.obj_origin.has_value())};
+          .notes = std::move(notes)};
 }
 
 /// Throws InputError for an archive that unpacks to too much. GDAL, which reads the file next, has no such limit.
@@ -71,17 +100,21 @@ void require_city_size(const InputFile& file) {
     if (stream->eof()) break;
 }
 
-SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
-  if (const ForeignFormat* foreign = foreign_format_of(file))
-    throw InputError(file.name + " is " + std::string(foreign->name) + ", which is not read: " + std::string(foreign->advice) +
-                     ".");
-  switch (format_of(file, report)) {
+SourceCity read_as(FileFormat format, const InputFile& file, const IngestSettings& settings, Report& report,
+                   const std::stop_token& stop) {
+  switch (format) {
     case FileFormat::citygml:
       return read_citygml(file, settings.lod, report, stop);
     case FileFormat::cityjson:
       return read_cityjson(file, settings.lod, report);
     case FileFormat::obj:
-      return ingest_obj(file, settings, report, stop);
+      return ingest_mesh(scan_obj(*open_input(file), stop), file, settings, report, stop);
+    case FileFormat::stl:
+      return ingest_mesh(scan_stl(file), file, settings, report, stop);
+    case FileFormat::ply:
+      return ingest_mesh(scan_ply(file), file, settings, report, stop);
+    case FileFormat::glb:
+      return ingest_mesh(scan_glb(file), file, settings, report, stop);
     case FileFormat::archive:
       throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
     case FileFormat::raster:
@@ -94,6 +127,13 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
   }
   require_city_size(file);
   return read_footprints(file, settings.footprints, report);
+}
+
+SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
+  const FileFormat format = format_of(file, report);
+  SourceCity city = read_as(format, file, settings, report, stop);
+  city.advice = advice_of(format);
+  return city;
 }
 
 /// One of several files.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "city/city_model.hpp"
@@ -13,18 +14,18 @@
 #include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
-#include "ingest/obj/obj_reader.hpp"
 
 namespace farlod::ingest {
 
 struct IngestSettings {
   FootprintSettings footprints;
-  LodChoice lod;                      ///< CityGML and CityJSON
-  std::optional<Point3d> obj_origin;  ///< added to the coordinates of OBJ files, after turning them upright
-  UpAxis up = UpAxis::z;              ///< OBJ
+  LodChoice lod;                          ///< CityGML and CityJSON
+  std::optional<Point3d> obj_origin;      ///< added to the coordinates of meshes, after turning them upright
+  std::optional<UpAxis> up;               ///< of meshes; empty: as the format has it
+  std::vector<std::string> ground_names;  ///< of objects, groups and materials of meshes, besides those that are known
 };
 
-/// Reads one file of a city: CityGML, CityJSON, OBJ, or footprints in any format that GDAL knows. For every file:
+/// Reads one file of a city: in a format of input_formats(), or footprints in any other that GDAL knows. For every file:
 ///   (1) coordinates are handed on as the file has them, in its own axis order;
 ///   (2) a building comes in one level of detail, and each of its polygons once;
 ///   (3) rings have at least three different points, no vertex twice in a row, and only finite coordinates;

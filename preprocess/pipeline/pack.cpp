@@ -15,6 +15,7 @@
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/resolved_source.hpp"
+#include "ingest/files/file_format.hpp"
 #include "package/crowns_of_city.hpp"
 #include "package/sources_file.hpp"
 #include "pipeline/blocks.hpp"
@@ -368,3 +369,14 @@ PackedCity pack(const StageSettings& settings, Report& report, const RunSettings
 }
 
 }  // namespace farlod::pipeline
+
+namespace farlod {
+
+InputFormatNames input_format_names() {
+  using ingest::InputFormat, ingest::names_where;
+  return {names_where([](const InputFormat&) { return true; }, " and ", true),
+          names_where([](const InputFormat& format) { return format.is_mesh; }),
+          names_where([](const InputFormat& format) { return format.is_piped; })};
+}
+
+}  // namespace farlod

@@ -112,7 +112,9 @@ void add_input_settings(const StageSettings& s, Values& values) {
   if (f.default_height_m) values.emplace_back("default-height", fmt::format("{}", *f.default_height_m));
   if (!f.unknown_heights.empty()) values.emplace_back("unknown-height", fmt::format("{}", fmt::join(f.unknown_heights, ",")));
   if (const auto& o = s.ingest.obj_origin) values.emplace_back("origin", fmt::format("{},{},{}", o->x, o->y, o->z));
-  values.emplace_back("up", s.ingest.up == UpAxis::y ? "y" : "z");
+  if (s.ingest.up) values.emplace_back("up", *s.ingest.up == UpAxis::y ? "y" : "z");
+  if (!s.ingest.ground_names.empty())
+    values.emplace_back("ground-names", fmt::format("{}", fmt::join(s.ingest.ground_names, ",")));
   values.emplace_back("lod", s.ingest.lod.exactly ? std::to_string(*s.ingest.lod.exactly) : "best");
   if (s.terrain) values.emplace_back("terrain", s.terrain->filename().string());
   for (const fs::path& file : s.far_terrains) values.emplace_back("far-terrain", file.filename().string());

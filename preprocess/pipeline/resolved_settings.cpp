@@ -27,7 +27,9 @@ void check_files(const PackSettings& s) {
 }
 
 void check_input(const PackSettings& s) {
-  require_one_of("up", s.up, UpAxis::y);
+  if (s.up) require_one_of("up", *s.up, UpAxis::y);
+  for (const std::string& name : s.ground_names)
+    if (name.empty()) throw InvalidArgument("one of ground_names is empty: give words such as \"Gelaende\"");
   if (s.lod) require_between("lod", *s.lod, 0, 3);
   constexpr double farthest_m = 1e9;
   if (s.obj_origin) {
@@ -123,7 +125,7 @@ StageSettings resolved(const PackSettings& s) {
   stages.trees = s.trees;
   stages.output = s.output;
   stages.overwrite = s.overwrite;
-  stages.ingest = {s.footprints, {s.lod}, s.obj_origin, s.up};
+  stages.ingest = {s.footprints, {s.lod}, s.obj_origin, s.up, s.ground_names};
   stages.georeference.crs = s.crs;
   stages.georeference.out_crs = s.out_crs;
   if (s.cell_edge_m) stages.grid.cell_edge_m = *s.cell_edge_m;

@@ -55,7 +55,7 @@ class PackCity(FarlodAlgorithm):
     TITLE = "Pack a city"
     HELP = (
         "Cuts a city model into a package, from which the other algorithms compute sky view factors.\n\n"
-        "City files are CityGML, CityJSON, OBJ, and footprints with heights; also folders of them, .zip and .gz. Footprints may "
+        "City files are CityGML, CityJSON, OBJ, STL, PLY, GLB, and footprints with heights; also folders of them, .zip and .gz. Footprints may "
         "also be a layer of the project. All inputs become one city.\n\n"
         "A package is made once for a city. One bad building never ends the run: it is reported as a warning, and left out or "
         "repaired."
@@ -70,19 +70,19 @@ class PackCity(FarlodAlgorithm):
 
     def _add_inputs(self) -> None:
         files = QgsProcessingParameterMultipleLayers("INPUT", "City files", QgsProcessing.TypeFile, None, True)
-        self.add(files, "CityGML, CityJSON, OBJ, footprints in a vector format of GDAL, .zip or .gz.")
+        self.add(files, "CityGML, CityJSON, OBJ, STL, PLY, GLB, footprints in a vector format of GDAL, .zip or .gz.")
         kind = QgsProcessingParameterFile.Folder
         folder = QgsProcessingParameterFile("INPUT_FOLDER", "Folder with city files", kind, "", None, True)
         self.add(folder, "All city files in it, and in the folders below it.")
         terrain = QgsProcessingParameterRasterLayer("TERRAIN", "Terrain", None, True)
         self.add(terrain, "Elevations of the ground, in metres. Without it, the ground passes through the bases of buildings.")
         crs = QgsProcessingParameterCrs("CRS", "CRS of inputs that do not say theirs", None, True)
-        self.add(crs, "OBJ files, and some others, do not say it.")
+        self.add(crs, "Meshes (OBJ, STL, PLY, GLB), and some others, do not say it.")
         out = QgsProcessingParameterCrs("OUT_CRS", "CRS of the package", None, True)
         self.add(out, "In metres. Default: that of the input, or UTM for degrees.", advanced=True)
-        origin = QgsProcessingParameterString("ORIGIN", "Origin of OBJ files", None, False, True)
+        origin = QgsProcessingParameterString("ORIGIN", "Origin of meshes", None, False, True)
         self.add(origin, "X,Y or X,Y,Z, added to their coordinates.", advanced=True)
-        self.add_choice("UP", "Axis that points up in OBJ files", "Usually z.", ["z", "y"], advanced=True)
+        self.add_choice("UP", "Axis that points up in meshes", "auto: y in GLB, z in others.", ["auto", "z", "y"], advanced=True)
         lods = ["best", "0", "1", "2", "3"]
         self.add_choice("LOD", "Level of detail to read", "best: the most detailed one of each building.", lods, advanced=True)
 

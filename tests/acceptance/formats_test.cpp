@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -10,6 +12,7 @@
 #include "package/package_reader.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/acceptance/real_city.hpp"
+#include "tests/scenes/mesh_files.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -80,6 +83,58 @@ TEST_P(Formats, OfTheSameTownGiveTheSameTilesAndSkyViewFactors) {
 INSTANTIATE_TEST_SUITE_P(All, Formats,
                          testing::Values("formats/citygml10_lod2.gml", "formats/citygml30_lod2.gml",
                                          "formats/cityjson20_lod2.city.json", "formats/cityjsonseq.city.jsonl"));
+
+/// The village, whose faces are convex, as triangles about an origin near it, so that float has their corners.
+constexpr Point3d village_origin{549947.0, 5499959.0, 0.0};
+
+scenes::TriangleMesh village_as_triangles() {
+  scenes::TriangleMesh mesh;
+  std::ifstream file(std::filesystem::path(FARLOD_SOURCE_DIR) / "datasets/samples/village.obj");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    Point3d p;
+    if (keyword == "v" && words >> p.x >> p.y >> p.z) mesh.vertices.push_back(p - village_origin);
+    if (keyword != "f") continue;
+    std::uint32_t first = 0, last = 0, next = 0;
+    for (words >> first >> last; words >> next; last = next) mesh.triangles.push_back({first - 1, last - 1, next - 1});
+  }
+  return mesh;
+}
+
+/// Float moves corners by 8 µm at the most. Where that takes a corner from one of the 320 azimuths to the next, a receiver sees
+/// past it there; elsewhere it is nothing beside a wall that is half a metre away.
+constexpr double one_azimuth = 1.0 / 320.0, mean_tolerance = 8e-6 / 0.5;
+
+TEST(MeshFormats, OfTheSameVillageGiveTheSameSkyViewFactors) {
+  const WorkFolder folder;
+  const scenes::TriangleMesh village = village_as_triangles();
+  folder.write("a.obj", scenes::obj_of(village));
+  folder.write("text.stl", scenes::stl_text_of(village));
+  folder.write("binary.stl", scenes::stl_of(village));
+  folder.write("a.ply", scenes::ply_of(village, false));
+  folder.write("a.glb", scenes::glb_of(village));
+  const auto map_of = [&](const std::string& file) {
+    folder.must("farlod-pack " + file + " -o a.farlod --force --quiet --crs EPSG:32632 --origin 549947,5499959");
+    folder.must("farlod-svf a.farlod -o a.asc --grid 2 --quiet");
+    return read_raster(folder.path("a.asc"));
+  };
+  const RasterFile expected = map_of("a.obj");
+  EXPECT_GT(std::count_if(expected.values.begin(), expected.values.end(), [](const auto& v) { return v && *v < 0.9; }), 500);
+  for (const char* file : {"text.stl", "binary.stl", "a.ply", "a.glb"}) {
+    const RasterFile found = map_of(file);
+    ASSERT_EQ(found.values.size(), expected.values.size()) << file;
+    double sum = 0.0;
+    for (std::size_t n = 0; n < found.values.size(); ++n) {
+      ASSERT_EQ(found.values[n].has_value(), expected.values[n].has_value()) << file << ' ' << n;
+      if (!found.values[n]) continue;
+      ASSERT_NEAR(*found.values[n], *expected.values[n], one_azimuth) << file << ' ' << n;
+      sum += std::abs(*found.values[n] - *expected.values[n]);
+    }
+    EXPECT_LT(sum / static_cast<double>(found.values.size()), mean_tolerance) << file;
+  }
+}
 
 /// The system in which the buildings' places are compared, by receivers at the same whole metres.
 constexpr const char* same_place = " --crs EPSG:6697 --out-crs EPSG:6677 --align none --quiet";

@@ -62,6 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "--out-crs",
                  "--origin",
                  "--up",
+                 "--ground-names",
                  "--height-field",
                  "--base-field",
                  "--roof-field",

@@ -44,6 +44,10 @@ std::vector<WrongPack> wrong_files() {
           {"crowns at no height", [](PackSettings& s) { s.trees.trunk_ratio = not_a_number; }},
           {"no such overwrite", [](PackSettings& s) { s.overwrite = static_cast<Overwrite>(5); }},
           {"no such policy", [](PackSettings& s) { s.problems = static_cast<ProblemPolicy>(-1); }},
+          {"an empty name of ground",
+           [](PackSettings& s) {
+             s.ground_names = {"lot", ""};
+           }},
           {"no such axis", [](PackSettings& s) { s.up = static_cast<UpAxis>(2); }},
           {"lod -1", [](PackSettings& s) { s.lod = -1; }},
           {"lod 4", [](PackSettings& s) { s.lod = 4; }},

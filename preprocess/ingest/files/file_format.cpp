@@ -3,7 +3,9 @@
 #include "ingest/files/file_format.hpp"
 
 #include <array>
+#include <cstring>
 #include <filesystem>
+#include <optional>
 
 namespace farlod::ingest {
 namespace {
@@ -93,7 +95,115 @@ bool is_obj_text(std::string_view text, bool is_whole) {
   return statements > 0;
 }
 
+std::optional<std::uintmax_t> size_of(const InputFile& file) {
+  std::error_code error;
+  if (file.pipe || file.is_packed()) return file.declared_bytes;
+  const std::uintmax_t bytes = std::filesystem::file_size(file.path, error);
+  return error ? std::nullopt : std::optional(bytes);
+}
+
+/// Whether a file is as long as binary STL says that it is: 84 bytes, of which the last four count the triangles, and 50 for
+/// each.
+bool has_size_of_stl(const FileBeginning& beginning) {
+  constexpr std::size_t head_bytes = 84, triangle_bytes = 50;
+  std::uint32_t triangles = 0;
+  if (beginning.bytes.size() < head_bytes) return false;
+  std::memcpy(&triangles, beginning.bytes.data() + head_bytes - sizeof triangles, sizeof triangles);
+  return size_of(beginning.file) == head_bytes + std::uintmax_t{triangle_bytes} * triangles;
+}
+
+/// A point cloud in PLY has no faces.
+bool is_ply_with_faces(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, bytes.find("end_header"));
+  return (head.starts_with("ply\n") || head.starts_with("ply\r")) && head.find("\nelement face") != head.npos;
+}
+
+constexpr InputFormat formats[] = {
+    {.format = FileFormat::citygml,
+     .name = "CityGML",
+     .versions = "1.0 to 3.0",
+     .endings = {{{".gml", true}, {".xml", true, true}, {".citygml"}}},
+     .is_this = [](const FileBeginning& b) { return b.text.starts_with('<') && is_citygml_root(root_tag(b.text)); },
+     .is_piped = true},
+    {.format = FileFormat::cityjson,
+     .name = "CityJSON",
+     .versions = "1.0 to 2.0",
+     .endings = {{{".city.json"}, {".cityjson"}, {".json", true, true}, {".jsonl", true}}},
+     // A pipe cannot be read before it is read
+     .is_this = [](const FileBeginning& b) { return !b.file.pipe && b.text.starts_with('{') && is_cityjson(b.file); },
+     .advice = {.scale = "CityJSON multiplies its vertices by \"transform\", which may be missing."}},
+    {.format = FileFormat::obj,
+     .name = "OBJ",
+     .endings = {{{".obj"}}},
+     .is_this = [](const FileBeginning& b) { return is_obj_text(b.text, b.is_whole); },
+     .is_piped = true,
+     .is_mesh = true,
+     .advice = {"OBJ is read in metres: scale it where it is exported.", "Give --up y, or --up z if that is given."}},
+    {.format = FileFormat::stl,
+     .name = "STL",
+     .endings = {{{".stl"}}},
+     .is_this = [](const FileBeginning& b) { return is_text_stl(b.bytes) || has_size_of_stl(b); },
+     .is_mesh = true,
+     .advice = {"STL is read in metres: scale it where it is exported.", "Give --up y, or --up z if that is given."}},
+    {.format = FileFormat::ply,
+     .name = "PLY",
+     .endings = {{{".ply", false, true}}},
+     .is_this = [](const FileBeginning& b) { return is_ply_with_faces(b.bytes); },
+     .is_piped = true,
+     .is_mesh = true,
+     .advice = {"PLY is read in metres: scale it where it is exported.", "Give --up y, or --up z if that is given."}},
+    {.format = FileFormat::glb,
+     .name = "GLB",
+     .endings = {{{".glb"}}},
+     .is_this = [](const FileBeginning& b) { return b.bytes.starts_with("glTF\2\0\0\0"sv); },
+     .is_piped = true,
+     .is_mesh = true,
+     .advice = {"GLB is read in metres: scale it where it is exported.",
+                "Give --up z: glTF says that y points up, and this file seems not to know. With --up z, leave it out."}},
+    {.format = FileFormat::features,
+     .name = "a table of features",
+     .endings = {{{".geojson"},
+                  {".geojsonl"},
+                  {".geojsons"},
+                  {".gpkg"},
+                  {".shp"},
+                  {".fgb"},
+                  {".kml"},
+                  {".kmz"},
+                  {".tab"},
+                  {".mif"},
+                  {".sqlite"},
+                  {".topojson"}}}},
+};
+
+const InputFormat* row_of(FileFormat format) {
+  for (const InputFormat& known : formats)
+    if (known.format == format) return &known;
+  return nullptr;
+}
+
+/// A format, and the ending of a name that promises it.
+struct NamedFormat {
+  const InputFormat* format = nullptr;
+  FormatEnding ending;
+};
+
+NamedFormat named_format(std::string_view file_name) {
+  const std::string name = lower_case(file_name);
+  for (const InputFormat& format : formats)
+    for (const FormatEnding& ending : format.endings)
+      if (!ending.text.empty() && name.ends_with(ending.text)) return {&format, ending};
+  return {};
+}
+
 }  // namespace
+
+std::span<const InputFormat> input_formats() { return formats; }
+
+bool is_text_stl(std::string_view beginning) {
+  return without_blanks(beginning).starts_with("solid") && beginning.find('\0') == beginning.npos &&
+         (beginning.find("facet") != beginning.npos || beginning.find("endsolid") != beginning.npos);
+}
 
 bool is_zip(std::string_view bytes) { return bytes.starts_with("PK\3\4"sv) || bytes.starts_with("PK\5\6"sv); }
 
@@ -126,26 +236,16 @@ FileFormat format_by_map_kind(const InputFile& file) {
 
 bool is_map_in_zip(std::string_view file_name) { return ends_with_any(file_name, {".kmz", ".xlsx", ".ods", ".shz"}); }
 
+FormatAdvice advice_of(FileFormat format) {
+  const InputFormat* known = row_of(format);
+  return known != nullptr ? known->advice : FormatAdvice();
+}
+
 std::string_view name_of(FileFormat format) {
-  switch (format) {
-    case FileFormat::citygml:
-      return "CityGML";
-    case FileFormat::cityjson:
-      return "CityJSON";
-    case FileFormat::obj:
-      return "OBJ";
-    case FileFormat::features:
-      return "a table of features";
-    case FileFormat::raster:
-      return "a raster";
-    case FileFormat::archive:
-      return "an archive";
-    case FileFormat::only_by_name:
-      return "of a format that may name other files";
-    case FileFormat::unknown:
-      break;
-  }
-  return "of no format that is known";
+  if (const InputFormat* known = row_of(format)) return known->name;
+  if (format == FileFormat::raster) return "a raster";
+  if (format == FileFormat::archive) return "an archive";
+  return format == FileFormat::only_by_name ? "of a format that may name other files" : "of no format that is known";
 }
 
 FileFormat format_by_content(const InputFile& file) {
@@ -153,30 +253,25 @@ FileFormat format_by_content(const InputFile& file) {
   if (!file.is_packed() && std::filesystem::is_directory(file.path, error)) return format_by_map_kind(file);
   const std::string bytes = read_beginning(file, beginning_bytes), text = plain_beginning(bytes);
   if (is_archive(bytes) && !is_map_in_zip(file.unpacked_name())) return FileFormat::archive;
-  if (text.starts_with('<') && is_citygml_root(root_tag(text))) return FileFormat::citygml;
-  // A pipe cannot be read before it is read
-  if (!file.pipe && text.starts_with('{') && is_cityjson(file)) return FileFormat::cityjson;
-  if (is_obj_text(text, bytes.size() < beginning_bytes)) return FileFormat::obj;
+  const FileBeginning beginning{file, bytes, text, bytes.size() < beginning_bytes};
+  for (const InputFormat& format : formats)
+    if (format.is_this != nullptr && format.is_this(beginning)) return format.format;
   return file.pipe ? FileFormat::unknown : format_by_map_kind(file);
 }
 
 FileFormat format_by_name(const InputFile& file) {
-  const std::string name = file.unpacked_name();
-  if (ends_with_any(name, {".gml", ".xml", ".citygml"})) return FileFormat::citygml;
-  if (ends_with_any(name, {".json", ".cityjson", ".jsonl"})) return FileFormat::cityjson;
-  if (ends_with_any(name, {".obj"})) return FileFormat::obj;
-  return FileFormat::features;
+  const NamedFormat named = named_format(file.unpacked_name());
+  return named.format != nullptr ? named.format->format : FileFormat::features;
 }
 
 bool name_allows(std::string_view file_name, FileFormat format) {
-  const bool is_features = format == FileFormat::features;
-  if (ends_with_any(file_name, {".citygml"})) return format == FileFormat::citygml;
-  if (ends_with_any(file_name, {".gml", ".xml"})) return format == FileFormat::citygml || is_features;
-  if (ends_with_any(file_name, {".city.json", ".cityjson"})) return format == FileFormat::cityjson;
-  if (ends_with_any(file_name, {".json", ".jsonl"})) return format == FileFormat::cityjson || is_features;
-  if (ends_with_any(file_name, {".obj"})) return format == FileFormat::obj;
-  if (ends_with_any(file_name, {".geojson", ".geojsonl", ".gpkg", ".shp", ".fgb", ".kml", ".kmz"})) return is_features;
-  return true;
+  const auto [named, ending] = named_format(file_name);
+  return named == nullptr || named->format == format || (ending.is_shared && format == FileFormat::features);
+}
+
+bool has_city_ending(std::string_view file_name) {
+  const auto [named, ending] = named_format(file_name);
+  return named != nullptr && !ending.is_ignored;
 }
 
 }  // namespace farlod::ingest

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "base/lower_case.hpp"
+#include "city/city_model.hpp"
 #include "ingest/files/input_file.hpp"
 
 namespace farlod::ingest {
@@ -24,6 +28,9 @@ namespace farlod::ingest {
 
 /// Whether a file is `metadata.json` of CityJSON without objects: the header of CityJSONFeatures in other files.
 [[nodiscard]] bool is_header_of_features(const InputFile& file);
+
+/// Whether a file that begins so is STL as text. Binary files may begin with the same word, but have other bytes before long.
+[[nodiscard]] bool is_text_stl(std::string_view beginning);
 
 /// What a file or a folder is to GDAL.
 enum class MapKind {
@@ -46,6 +53,9 @@ enum class FileFormat {
   citygml,
   cityjson,  ///< and CityJSONSeq
   obj,
+  stl,
+  ply,
+  glb,
   features,      ///< a vector format in which GDAL may find footprints
   raster,        ///< a surface model
   only_by_name,  ///< a format whose files may name others, of a file that the user did not name
@@ -53,8 +63,53 @@ enum class FileFormat {
   unknown,       ///< no format of a city
 };
 
+/// What begins a file, from which its format is told.
+struct FileBeginning {
+  const InputFile& file;
+  std::string_view bytes;  ///< the first 64 KiB
+  std::string_view text;   ///< as ASCII, without byte order mark and leading blanks
+  bool is_whole = false;   ///< nothing follows
+};
+
+/// An ending of file names, in lower case with its dot.
+struct FormatEnding {
+  std::string_view text = {};
+  bool is_shared = false;   ///< tables of features have it, too
+  bool is_ignored = false;  ///< in a folder, the content decides whether such a file is a city
+};
+
+/// All that is known of a format that has a reader. Detection, the search of folders, messages and help read it here. How to add
+/// a format: CONTRIBUTING.md.
+struct InputFormat {
+  FileFormat format = FileFormat::unknown;
+  std::string_view name = {};      ///< "CityGML"
+  std::string_view versions = {};  ///< "1.0 to 3.0"
+  std::array<FormatEnding, 16> endings = {};
+  bool (*is_this)(const FileBeginning&) = nullptr;  ///< null: GDAL tells
+  bool is_piped = false;                            ///< it is told by its beginning, and read once from there to its end
+  bool is_mesh = false;                             ///< polygons alone: --origin, --up and --ground-names are about it
+  FormatAdvice advice = {};
+};
+
+/// In the order in which contents are compared with them.
+[[nodiscard]] std::span<const InputFormat> input_formats();
+
+/// The names of the formats that fulfil a condition, as "CityGML, CityJSON and OBJ". Tables of features are not among them.
+template <class Condition>
+[[nodiscard]] std::string names_where(const Condition& condition, std::string_view last = " and ", bool with_versions = false) {
+  std::string names, next;
+  for (const InputFormat& format : input_formats()) {
+    if (format.is_this == nullptr || !condition(format)) continue;
+    if (!next.empty()) names += (names.empty() ? "" : ", ") + next;
+    next = std::string(format.name) + (with_versions && !format.versions.empty() ? " " + std::string(format.versions) : "");
+  }
+  return names.empty() ? next : names + std::string(last) + next;
+}
+
 /// Whether a file of this name is of a format of its own, although it is a zip archive inside: GDAL opens it.
 [[nodiscard]] bool is_map_in_zip(std::string_view file_name);
+
+[[nodiscard]] FormatAdvice advice_of(FileFormat format);
 
 /// The name of a format in messages: "CityGML".
 [[nodiscard]] std::string_view name_of(FileFormat format);
@@ -68,5 +123,8 @@ enum class FileFormat {
 
 /// Whether a name is usual for a format. Endings such as `.gml` and `.json` belong to several formats.
 [[nodiscard]] bool name_allows(std::string_view file_name, FileFormat format);
+
+/// Whether a file in a folder is a city by its name. The content of `.xml` and `.json` files decides about them instead.
+[[nodiscard]] bool has_city_ending(std::string_view file_name);
 
 }  // namespace farlod::ingest

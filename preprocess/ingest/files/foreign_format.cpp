@@ -29,12 +29,15 @@ constexpr ForeignFormat drawing{"a CAD drawing (DXF, DWG)",
                                 "export the bodies as OBJ, or closed outlines as a Shapefile or GeoPackage"};
 constexpr ForeignFormat building_model{"an IFC model", "`IfcConvert FILE.ifc FILE.obj` of IfcOpenShell makes an OBJ"};
 constexpr ForeignFormat tiles{"a tile or tileset of 3D Tiles",
-                              "take the data that the tiles were made of, or turn its GLB files into OBJ (assimp, Blender)"};
-constexpr ForeignFormat mesh{"a mesh of another format than OBJ", "`assimp export FILE FILE.obj` or Blender makes an OBJ"};
+                              "take the data that the tiles were made of, or make OBJ of its files (Blender), and give its CRS"};
+constexpr ForeignFormat mesh{"a mesh of another format than those that are read",
+                             "`assimp export FILE FILE.obj` or Blender makes an OBJ"};
 constexpr ForeignFormat point_cloud{
     "a point cloud", "make a raster of its highest points, by PDAL's writers.gdal with output_type max, and give that"};
-constexpr ForeignFormat parquet{"a table in (Geo)Parquet, for which this GDAL has no driver",
-                                "write it as a GeoPackage, with geopandas, DuckDB or an ogr2ogr that has one"};
+constexpr ForeignFormat parquet{
+    "a table in (Geo)Parquet, for which this GDAL has no driver",
+    "`geopandas.read_parquet(FILE).to_file(\"FILE.gpkg\")` in Python, DuckDB, or an ogr2ogr that has one, "
+    "makes a GeoPackage"};
 constexpr ForeignFormat plain_text{"a plain text", "give the file of the city that it belongs to"};
 constexpr ForeignFormat inspire{"GML of INSPIRE's buildings",
                                 "ask the publisher for CityGML or footprints, or convert it with hale studio"};
@@ -52,16 +55,14 @@ constexpr std::array rows{
     Row{{.magic = "pnts"}, tiles},
     Row{{.magic = "cmpt"}, tiles},
     Row{{.words = {"\"asset\"", "\"root\"", "\"geometricError\""}}, tiles},
-    Row{{.magic = "glTF"}, mesh},
     Row{{.words = {"\"asset\"", "\"meshes\"", "\"accessors\""}}, mesh},
-    Row{{.magic = "ply"}, mesh},
-    Row{{.ending = ".stl"}, mesh},
     Row{{.words = {"<COLLADA"}}, mesh},
     Row{{.magic = "Kaydara FBX Binary"}, mesh},
     Row{{.magic = "3D Geometry File Format"}, mesh},
     Row{{.ending = ".3ds"}, mesh},
     Row{{.ending = ".skp"}, mesh},
     Row{{.magic = "LASF"}, point_cloud},
+    Row{{.magic = "ply"}, point_cloud},
     Row{{.ending = ".e57"}, point_cloud},
     Row{{.words = {"inspire.ec.europa.eu/schemas/bu", "FeatureCollection"}}, inspire},
     Row{{.words = {"<gbXML"}}, energy_model},

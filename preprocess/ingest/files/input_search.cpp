@@ -106,12 +106,6 @@ namespace fs = std::filesystem;
 /// Enough bytes to recognize an archive.
 constexpr std::size_t mark_bytes = 512;
 
-/// Endings of cities and footprints alone. The content of `.xml` and `.json` files decides about them instead.
-bool has_city_ending(const std::string& name) {
-  return ends_with_any(name, {".gml", ".citygml", ".cityjson", ".city.json", ".jsonl", ".obj", ".geojson", ".geojsonl",
-                              ".geojsons", ".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".tab", ".mif", ".sqlite", ".topojson"});
-}
-
 /// Companions of city files: parts of shapefiles and MapInfo tables, textures, styles, schemas, documents, files of the system.
 bool is_companion(const std::string& name) {
   return ends_with_any(
@@ -170,9 +164,11 @@ InputFile gzip_member(const fs::path& file) {
 InputFile readable_pipe(const fs::path& path) {
   InputFile file(path);
   file.pipe = std::make_shared<InputPipe>(path);
-  const FileFormat format = format_by_content(file);
-  if (format != FileFormat::citygml && format != FileFormat::obj && !read_beginning(file, 1).empty())
-    throw InputError(file.name + " is a pipe, and gives neither CityGML nor OBJ: write it to a file first.");
+  const FileFormat content = format_by_content(file);
+  const auto is_piped = [](const InputFormat& format) { return format.is_piped; };
+  const auto is_it = [&](const InputFormat& format) { return format.format == content && format.is_piped; };
+  if (names_where(is_it).empty() && !read_beginning(file, 1).empty())
+    throw InputError(file.name + " is a pipe, and gives no " + names_where(is_piped, " or ") + ": write it to a file first.");
   return file;
 }
 
@@ -318,7 +314,8 @@ class InputSearch {
     std::string others;
     for (const auto& [what, count] : found_.skipped)
       others += (others.empty() ? " It holds " : ", ") + std::to_string(count) + " " + what;
-    throw InputError(inputs.front().string() + " holds no file of a city: no CityGML, CityJSON, OBJ or footprints." + others +
+    throw InputError(inputs.front().string() + " holds no file of a city: no " +
+                     names_where([](const InputFormat&) { return true; }, ", ") + " or footprints." + others +
                      (others.empty() ? "" : "."));
   }
 

@@ -19,6 +19,7 @@
 #include "gdal/local_data_gdal.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
+#include "ingest/files/file_format.hpp"
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
@@ -367,8 +368,8 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
   if (!dataset && !file.is_named && is_known_within(GdalReach::local_files, file.path, GDAL_OF_VECTOR))
     throw InputError(file.name + " is of a format that may name other files: give it by its own name, unpacked.");
   if (!dataset)
-    throw InputError(file.name +
-                     " cannot be read as a city: it is no CityGML, CityJSON or OBJ, and GDAL finds no footprints in it" +
+    throw InputError(file.name + " cannot be read as a city: it is no " +
+                     names_where([](const InputFormat&) { return true; }, " or ") + ", and GDAL finds no footprints in it" +
                      (errors.empty() ? "." : " (" + errors.front() + ")."));
   return dataset;
 }

@@ -134,21 +134,22 @@ void add_trees(py::module_& module) {
 
 void set_words(PackSettings& settings, const std::string& up, const std::string& assign, const std::string& far_map,
                const std::string& problems) {
-  settings.up = either<UpAxis>("up", up, {"z", UpAxis::z}, {"y", UpAxis::y});
+  if (up != "auto") settings.up = either<UpAxis>("up", up, {"z", UpAxis::z}, {"y", UpAxis::y});
   settings.assign = either<Assign>("assign", assign, {"clip", Assign::clip}, {"whole", Assign::whole});
   settings.far_map = either<FarMapKind>("far_map", far_map, {"horizon", FarMapKind::horizon}, {"box", FarMapKind::box});
   settings.problems =
       either<ProblemPolicy>("problems", problems, {"pack", ProblemPolicy::pack}, {"refuse", ProblemPolicy::refuse});
 }
 
+PackSettings settings_for(const std::string& output) {
+  PackSettings settings;
+  settings.output = output;
+  return settings;
+}
+
 void add_pack_settings(py::module_& module) {
   py::class_<PackSettings>(module, "PackSettings")
-      .def(py::init([](const std::string& output) {
-             PackSettings settings;
-             settings.output = output;
-             return settings;
-           }),
-           py::arg("output"))
+      .def(py::init(&settings_for), py::arg("output"))
       .def("set_inputs", &set_inputs)
       .def("set_terrain", &set_terrain)
       .def("set_obj_origin", &set_obj_origin)
@@ -162,6 +163,7 @@ void add_pack_settings(py::module_& module) {
       .def_readwrite("crs", &PackSettings::crs)
       .def_readwrite("out_crs", &PackSettings::out_crs)
       .def_readwrite("lod", &PackSettings::lod)
+      .def_readwrite("ground_names", &PackSettings::ground_names)
       .def_readwrite("footprints", &PackSettings::footprints)
       .def_readwrite("trees", &PackSettings::trees)
       .def_readwrite("cell_edge_m", &PackSettings::cell_edge_m)

@@ -229,8 +229,9 @@ def pack(
     lod: int | None = None,
     layer: str | None = None,
     encoding: str | None = None,
-    up: Literal["z", "y"] = "z",
+    up: Literal["auto", "z", "y"] = "auto",
     obj_origin: Any = None,
+    ground_names: Sequence[str] = (),
     assign: Literal["clip", "whole"] = "clip",
     far_map: Literal["horizon", "box"] = "horizon",
     overwrite: bool = False,
@@ -245,9 +246,9 @@ def pack(
     Parameters
     ----------
     city : path, model in memory, or a list of these
-        Files, folders and archives of CityGML, CityJSON, OBJ, footprints of any vector format, or rasters of a surface model; a
-        geopandas.GeoDataFrame of footprints, with heights in columns; a mesh as (vertices, faces), or with these attributes as
-        trimesh has; an xarray.DataArray of surface heights on (y, x), in metres. All are put together.
+        Files, folders and archives of CityGML, CityJSON, OBJ, STL, PLY, GLB, footprints of any vector format, or rasters of a
+        surface model; a geopandas.GeoDataFrame of footprints, with heights in columns; a mesh as (vertices, faces), or with
+        these attributes as trimesh has; an xarray.DataArray of surface heights on (y, x), in metres. All are put together.
     path : str or path-like
         The folder to make.
     cell : float, optional
@@ -279,7 +280,9 @@ def pack(
     encoding : str, optional
         What the texts of a Shapefile without .cpg are in, such as ``"GBK"`` or ``"CP1252"``.
     up, obj_origin
-        Which axis of OBJ files and meshes is up, and (x, y, z) that is added to their coordinates.
+        Which axis of meshes is up (auto: y in GLB, z in others), and (x, y, z) that is added to their coordinates.
+    ground_names : sequence of str
+        Words by which objects, groups or materials of meshes are ground, besides ``Terrain``, ``Road``, ``Water`` and others.
     assign, far_map
         ``"whole"`` and ``"box"`` are the paper's ways, to compare with.
     overwrite : bool, default False
@@ -326,7 +329,7 @@ def pack(
     module = _modules.load_preprocess()
     settings = module.PackSettings(_arguments.path("path", path))
     settings.set_words(
-        _arguments.word("up", up, ("z", "y")),
+        _arguments.word("up", up, ("auto", "z", "y")),
         _arguments.word("assign", assign, ("clip", "whole")),
         _arguments.word("far_map", far_map, ("horizon", "box")),
         _arguments.word("problems", problems, ("pack", "refuse")),
@@ -341,6 +344,7 @@ def pack(
         if origin.shape != (3,):
             raise InvalidArgument(f"obj_origin is {obj_origin!r}: give x, y and z")
         settings.set_obj_origin(origin.tolist())
+    settings.ground_names = [ground_names] if isinstance(ground_names, str) else list(ground_names)
     settings.crs, settings.out_crs = _crs_text("crs", crs), _crs_text("out_crs", out_crs)
     settings.footprints = _footprints(Heights(height=heights) if isinstance(heights, str) else heights or Heights(), module)
     for name, value in (("layer", layer), ("encoding", encoding)):

@@ -4,11 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "farlod/error.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/georeference.hpp"
+#include "ingest/files/file_format.hpp"
 #include "tests/scenes/refusal.hpp"
 
 namespace farlod::georeference {
@@ -101,7 +103,10 @@ TEST_F(MisplacedFacetsOf, ABuildingThatIsTornApartAreAllOfIt) {
 
 class Model {
  public:
-  explicit Model(std::string source = "town.city.json") { located_.sources = {std::move(source)}; }
+  explicit Model(std::string source = "town.city.json") {
+    located_.advice = {ingest::advice_of(ingest::format_by_name(std::filesystem::path(source)))};
+    located_.sources = {std::move(source)};
+  }
 
   Model& box(Point3d low, Point3d size, HeightReference reference = HeightReference::elevation) {
     CityModel& city = located_.city;

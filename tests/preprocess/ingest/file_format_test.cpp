@@ -274,9 +274,10 @@ TEST(ForeignFormats, AreRefusedWithWhatConvertsThem) {
        {Foreign{"a.dxf", "0\nSECTION\n2\nENTITIES\n", "a CAD drawing (DXF, DWG), which is not read: export the bodies as OBJ"},
         Foreign{"a.dwg", "AC1032\1\2", "a CAD drawing"}, Foreign{"a.ifc", "ISO-10303-21;\nHEADER;", "IfcConvert FILE.ifc"},
         Foreign{"tileset.json", R"({"asset":{"version":"1.0"},"geometricError":500,"root":{}})", "3D Tiles"},
-        Foreign{"a.gltf", R"({"asset":{},"meshes":[],"accessors":[]})", "a mesh of another format than OBJ"},
-        Foreign{"a.glb", "glTF\2", "assimp export"}, Foreign{"a", "ply\nformat ascii 1.0\n", "a mesh"},
-        Foreign{"a.stl", "solid a\nfacet normal 0 0 1\n", "a mesh"}, Foreign{"a.las", "LASF\1", "PDAL"},
+        Foreign{"a.gltf", R"({"asset":{},"meshes":[],"accessors":[]})", "a mesh of another format than those that are read"},
+        Foreign{"a.fbx", "Kaydara FBX Binary", "assimp export"},
+        Foreign{"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n", "a point cloud"},
+        Foreign{"a.las", "LASF\1", "PDAL"},
         Foreign{"a.xml", R"(<?xml version="1.0"?><gbXML xmlns="http://www.gbxml.org/schema">)", "gbXML"},
         Foreign{"a.gml", R"(<gml:FeatureCollection xmlns:bu="http://inspire.ec.europa.eu/schemas/bu-core2d/4.0">)", "INSPIRE"},
         Foreign{"a.parquet", "PAR1\1", "GeoPackage"}, Foreign{"plan.pdf", "%PDF-1.7", "a document"}}) {

@@ -310,7 +310,8 @@ TEST_F(InputSearch, APipeIsReadFromItsBeginningToItsEnd) {
 
 TEST_F(InputSearch, APipeOfAnotherFormatIsRefused) {
   const FilledPipe pipe(folder / "pipe", cityjson_of("a"));
-  EXPECT_THAT(refusal({folder / "pipe"}), HasSubstr("is a pipe, and gives neither CityGML nor OBJ"));
+  EXPECT_THAT(refusal({folder / "pipe"}),
+              HasSubstr("is a pipe, and gives no CityGML, OBJ, PLY or GLB: write it to a file first"));
 }
 
 TEST(ZipDirectory, NamesEachFileAndItsLock) {

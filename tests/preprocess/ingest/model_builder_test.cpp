@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "ingest/mesh/planar_faces.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "ingest/model_builder/ring_cleaning.hpp"
-#include "ingest/obj/obj_mesh.hpp"
 
 namespace farlod::ingest {
 namespace {

@@ -8,9 +8,8 @@
 #include "archive_writer.hpp"
 #include "base/cancellation.hpp"
 #include "ingest/files/input_search.hpp"
-#include "ingest/obj/obj_classes.hpp"
-#include "ingest/obj/obj_mesh.hpp"
-#include "ingest/obj/obj_reader.hpp"
+#include "ingest/mesh/mesh_classes.hpp"
+#include "ingest/obj/obj_scanner.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 #include "tests/scenes/surface_count.hpp"
@@ -50,10 +49,10 @@ TEST(Obj, WithoutGroupsBuildingsAreWhatHangsTogether) {
 
 TEST(Obj, NamesOfGroundAndTreesAreNoBuildings) {
   for (const char* name : {"Terrain", "water_1", "Road.002", "TINRelief"})
-    EXPECT_EQ(class_of_name(name), ObjClass::ground) << name;
-  for (const char* name : {"Forest", "tree 17"}) EXPECT_EQ(class_of_name(name), ObjClass::other) << name;
+    EXPECT_EQ(class_of_name(name), MeshClass::ground) << name;
+  for (const char* name : {"Forest", "tree 17"}) EXPECT_EQ(class_of_name(name), MeshClass::other) << name;
   for (const char* name : {"", "Building", "Water Street 5", "roadhouse", "NL.Pand.00", "Terrain house"})
-    EXPECT_EQ(class_of_name(name), ObjClass::building) << name;
+    EXPECT_EQ(class_of_name(name), MeshClass::building) << name;
   const std::string corners = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 5\n";
   const Reading r = read_text("a.obj", corners +
                                            "o Terrain_1\nf 1 2 3\no house\nusemtl wall\nf 1 2 4\nf 2 3 4\nusemtl Road\nf 1 3 2\n"
@@ -192,10 +191,10 @@ const std::string every_way =
     "f 2 3 4\ng north wing\n v\t5 x 5\nf 1 2 -1\nf a b c\nv 9 9 9 \\";
 
 /// What a mesh holds, as text.
-std::string described(const ObjMesh& mesh) {
+std::string described(const Mesh& mesh) {
   std::ostringstream text;
   for (const Point3d& p : mesh.vertices) text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  for (const ObjFace& face : mesh.faces) {
+  for (const MeshFace& face : mesh.faces) {
     text << "f of line " << face.line << " in " << face.group << ' ' << mesh.groups[face.group] << ", " << face.object << ' '
          << mesh.objects[face.object] << ':';
     for (std::size_t k = 0; k < face.corner_count; ++k) text << ' ' << mesh.corners[face.first_corner + k];
@@ -243,8 +242,8 @@ TEST(ObjSegments, SayTogetherWhatTheFileSays) {
 }
 
 TEST(ObjSegments, AreNoneOfAnEmptyFile) {
-  EXPECT_EQ(scan("", 10, 4), described(ObjMesh()));
-  EXPECT_EQ(scan("\xEF\xBB\xBF", 10, 4), described(ObjMesh()));
+  EXPECT_EQ(scan("", 10, 4), described(Mesh()));
+  EXPECT_EQ(scan("\xEF\xBB\xBF", 10, 4), described(Mesh()));
 }
 
 TEST(ObjSegments, EndWhenAStopIsRequested) {

@@ -40,6 +40,7 @@ class PackSettings:
     crs: str
     out_crs: str
     lod: int | None
+    ground_names: Sequence[str]
     footprints: FootprintSettings
     trees: TreeSettings
     cell_edge_m: float | None
