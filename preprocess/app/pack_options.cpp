@@ -49,7 +49,7 @@ ProgramDescription pack_program() {
 struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "auto", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
-  std::optional<std::string> area;
+  std::optional<std::string> area, ground_names;
   std::string terrain, height_field, base_field, storeys_field, roof_field, layer, encoding;
   std::vector<std::string> trees, far_terrains;
   std::string tree_height_field, crown_field, trunk_field, canopy, trunk;
@@ -89,10 +89,10 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(CLI::IsMember({"auto", "z", "y"}))
       ->capture_default_str()
       ->group("Input");
-  app.add_option("--ground-names", o.settings.ground_names,
-                 "Words by which objects, groups or materials in these are ground, such as Gelaende,Strasse; besides Terrain, "
-                 "Road, Water and others")
-      ->delimiter(',')
+  app.add_option(
+         "--ground-names", raw.ground_names,
+         "Names of objects, groups or materials in these that are ground, such as Gelaende,Strasse; besides Terrain, Road, "
+         "Water and others")
       ->group("Input");
   app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")
       ->group("Input");
@@ -308,6 +308,14 @@ void resolve_fields(const RawOptions& raw, FootprintSettings& footprints) {
   if (!raw.roof_field.empty()) footprints.roof_field = raw.roof_field;
 }
 
+std::vector<std::string> names_in(const std::string& text) {
+  // As in area_in
+  std::vector<std::string> names = CLI::detail::split(text + ',', ',');
+  for (std::string& name : names)
+    if (CLI::detail::trim(name).empty()) throw CLI::ValidationError("--ground-names", "\"" + text + "\" has an empty name");
+  return names;
+}
+
 void resolve(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
   for (const std::string& input : raw.inputs) s.inputs.emplace_back(input == "-" ? "/dev/stdin" : input);
@@ -328,6 +336,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");
   if (!raw.origin.empty()) s.obj_origin = parse_origin(raw.origin);
+  if (raw.ground_names) s.ground_names = names_in(*raw.ground_names);
   if (raw.up != "auto") s.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
   if (raw.lod != "best") s.lod = std::stoi(raw.lod);
   resolve_fields(raw, s.footprints);

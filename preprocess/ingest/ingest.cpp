@@ -16,6 +16,7 @@
 #include "ingest/files/foreign_format.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/mesh/mesh_buildings.hpp"
+#include "ingest/mesh/mesh_classes.hpp"
 #include "ingest/mesh/mesh_placement.hpp"
 #include "ingest/mesh/mesh_scanners.hpp"
 #include "ingest/obj/obj_scanner.hpp"
@@ -89,7 +90,8 @@ SourceCity ingest_mesh(const Mesh& mesh, const InputFile& file, const IngestSett
           .city = builder.take_city(),
           .relief_points = std::move(rest.relief_points),
           .skipped = std::move(rest.skipped),
-          .notes = std::move(notes)};
+          .notes = std::move(notes),
+          .met_ground_names = met_names(mesh, settings.ground_names)};
 }
 
 /// Throws InputError for an archive that unpacks to too much. GDAL, which reads the file next, has no such limit.

@@ -78,8 +78,18 @@ class CityReading {
   }
 
  private:
+  void note_unmet_names(const std::vector<SourceCity>& sources) {
+    for (const std::string& name : settings_.ingest.ground_names)
+      if (std::none_of(sources.begin(), sources.end(), [&](const SourceCity& source) {
+            return std::find(source.met_ground_names.begin(), source.met_ground_names.end(), name) !=
+                   source.met_ground_names.end();
+          }))
+        read_.notes.push_back("nothing is called " + name + ", as --ground-names says, in any mesh");
+  }
+
   std::vector<SourceCity> ingest() {
     std::vector<SourceCity> sources = ingest::ingest_all(files_.files, settings_.ingest, report_, stop_);
+    note_unmet_names(sources);
     for (SourceCity& source : sources) {
       for (const auto& [what, count] : source.skipped) read_.skipped[what] += count;
       std::move(source.notes.begin(), source.notes.end(), std::back_inserter(read_.notes));

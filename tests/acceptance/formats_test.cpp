@@ -136,6 +136,18 @@ TEST(MeshFormats, OfTheSameVillageGiveTheSameSkyViewFactors) {
   }
 }
 
+TEST(MeshFormats, NamesOfGroundAreTheUsersToo) {
+  const WorkFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 9\no Gel\xC3\xA4nde_1\nf 1 2 3\no house\nf 1 2 4\nf 2 3 4\n");
+  const Outcome outcome = folder.run(
+      "farlod-pack --ground-names 'gel\xC3\xA4nde, lot' a.obj -o a.farlod --crs EPSG:32632 --origin 549947,5499959 --summary "
+      "a.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out + outcome.err, testing::HasSubstr("ground by their names: 1 of gel\xC3\xA4nde"));
+  EXPECT_THAT(outcome.out + outcome.err, testing::HasSubstr("nothing is called lot"));
+  EXPECT_EQ(folder.json_of("a.json").at("buildings"), 1);
+}
+
 /// The system in which the buildings' places are compared, by receivers at the same whole metres.
 constexpr const char* same_place = " --crs EPSG:6697 --out-crs EPSG:6677 --align none --quiet";
 constexpr const char* exactly = " --grid 1 --engine exact --rays 1000 --quiet";

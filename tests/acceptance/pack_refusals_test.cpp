@@ -82,6 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
                              {"town.geojson", "is not a raster of the heights of crowns"}),
                     wrong_packing("TrunksWithoutCanopy", "--trunk a.tif", {"--trunk", "--canopy"}),
                     wrong_packing("TrunksAboveCrowns", "--trunk-ratio 1.5", {"--trunk-ratio"}),
+                    wrong_packing("GroundWithoutAName", "--ground-names lot,,road", {"--ground-names", "empty name"}),
                     wrong_packing("TreesWithoutAName", "--trees ''", {"--trees", "empty"}),
                     unusable_packing("NoTerrain", "--terrain lost.tif", {"lost.tif"}),
                     unusable_packing("TerrainIsNoRaster", "--terrain town.geojson",

@@ -51,6 +51,17 @@ MeshClass class_of_name(std::string_view name, std::span<const std::string> grou
   return std::ranges::find(other_names, word) != other_names.end() ? MeshClass::other : MeshClass::building;
 }
 
+std::vector<std::string> met_names(const Mesh& mesh, std::span<const std::string> ground_names) {
+  std::vector<std::string> met;
+  for (const std::string& wanted : ground_names) {
+    const auto is_met = [&](const std::string& name) { return is_called(name, wanted); };
+    if (std::ranges::any_of(mesh.objects, is_met) || std::ranges::any_of(mesh.groups, is_met) ||
+        std::ranges::any_of(mesh.materials, is_met))
+      met.push_back(wanted);
+  }
+  return met;
+}
+
 MeshClasses::MeshClasses(const Mesh& mesh, std::span<const std::string> ground_names)
     : mesh_(mesh),
       objects_(classes_of(mesh.objects, ground_names)),

@@ -23,6 +23,9 @@ enum class MeshClass {
 /// which the user gives.
 [[nodiscard]] MeshClass class_of_name(std::string_view name, std::span<const std::string> ground_names = {});
 
+/// Those of the names that an object, a group or a material of the mesh has.
+[[nodiscard]] std::vector<std::string> met_names(const Mesh& mesh, std::span<const std::string> ground_names);
+
 /// The class of a face: the first of its object, group and material that is no building decides.
 class MeshClasses {
  public:

@@ -177,6 +177,13 @@ def _set_grid(settings: Any, cell: Any, neighborhood: Any, max_error: Any, align
         settings.set_bearing(_arguments.number("align", align))
 
 
+def _ground_names(names: str | Sequence[str]) -> list[str]:
+    listed = [names] if isinstance(names, str) else list(names)
+    if not all(isinstance(name, str) and name for name in listed):
+        raise InvalidArgument(f"ground_names is {names!r}: give words")
+    return listed
+
+
 def _set_area(settings: Any, area: Any, folder: str) -> None:
     if area is None:
         return
@@ -231,7 +238,7 @@ def pack(
     encoding: str | None = None,
     up: Literal["auto", "z", "y"] = "auto",
     obj_origin: Any = None,
-    ground_names: Sequence[str] = (),
+    ground_names: str | Sequence[str] = (),
     assign: Literal["clip", "whole"] = "clip",
     far_map: Literal["horizon", "box"] = "horizon",
     overwrite: bool = False,
@@ -281,7 +288,7 @@ def pack(
         What the texts of a Shapefile without .cpg are in, such as ``"GBK"`` or ``"CP1252"``.
     up, obj_origin
         Which axis of meshes is up (auto: y in GLB, z in others), and (x, y, z) that is added to their coordinates.
-    ground_names : sequence of str
+    ground_names : str or sequence of str
         Words by which objects, groups or materials of meshes are ground, besides ``Terrain``, ``Road``, ``Water`` and others.
     assign, far_map
         ``"whole"`` and ``"box"`` are the paper's ways, to compare with.
@@ -344,7 +351,7 @@ def pack(
         if origin.shape != (3,):
             raise InvalidArgument(f"obj_origin is {obj_origin!r}: give x, y and z")
         settings.set_obj_origin(origin.tolist())
-    settings.ground_names = [ground_names] if isinstance(ground_names, str) else list(ground_names)
+    settings.ground_names = _ground_names(ground_names)
     settings.crs, settings.out_crs = _crs_text("crs", crs), _crs_text("out_crs", out_crs)
     settings.footprints = _footprints(Heights(height=heights) if isinstance(heights, str) else heights or Heights(), module)
     for name, value in (("layer", layer), ("encoding", encoding)):
