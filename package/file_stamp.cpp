@@ -112,7 +112,7 @@ bool are_whole(const std::filesystem::path& package, const package::BlockFiles& 
 bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest) {
   return (!manifest.canopy || is_whole(package / package::crowns_file, manifest.canopy->stamp)) &&
          (!manifest.sources || is_whole(package / package::sources_file, *manifest.sources)) &&
-         (!manifest.relief || is_whole(package / package::relief_file, *manifest.relief));
+         (!manifest.far_terrain || is_whole(package / package::far_terrain_file, *manifest.far_terrain));
 }
 
 }  // namespace farlod

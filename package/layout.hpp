@@ -91,12 +91,12 @@ static_assert(std::endian::native == std::endian::little,
 /// The version of the manifest, and so of the package, that is written: trees (crown.hpp) and the places that surfaces
 /// come from (sources_layout.hpp) are there where the city has them.
 inline constexpr std::uint32_t format_version = 10;
-/// The version of a package that knows the ground beyond its grid (relief.hpp): who does not read that would miss mountains.
-inline constexpr std::uint32_t relief_format_version = 11;
+/// The version of a package that knows the ground beyond its grid (far_terrain.hpp): who does not read that would miss mountains.
+inline constexpr std::uint32_t far_terrain_format_version = 11;
 /// The version of a city with trees, before version 10.
 inline constexpr std::uint32_t canopy_format_version = 9;
 /// The newest one that is read.
-inline constexpr std::uint32_t newest_format_version = relief_format_version;
+inline constexpr std::uint32_t newest_format_version = far_terrain_format_version;
 /// The oldest one that is read.
 inline constexpr std::uint32_t oldest_format_version = 8;
 /// The version of `tiles.bin`, which changes on its own.
@@ -254,7 +254,7 @@ inline constexpr float farthest_in_tile_m = 1.3e7F;
 inline constexpr const char* tiles_file = "tiles.bin";
 inline constexpr const char* far_map_file = "far.exr";
 inline constexpr const char* manifest_file = "manifest.json";
-inline constexpr const char* relief_file = "relief.bin";  ///< in the folder of the package
+inline constexpr const char* far_terrain_file = "far_terrain.bin";  ///< in the folder of the package
 
 // Channels of far.exr, all half. Either kind has a channel Y, which any viewer shows as a grey picture.
 //

@@ -174,7 +174,7 @@ struct Manifest {
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
   std::optional<CanopyFile> canopy = {};                      ///< where there are crowns
   std::optional<FileStamp> sources = {};                      ///< of `sources.bin`, where city files have places for attributes
-  std::optional<FileStamp> relief = {};                       ///< of `relief.bin`, where the ground beyond the grid is known
+  std::optional<FileStamp> far_terrain = {};                  ///< of `far_terrain.bin`, where the ground beyond the grid is known
 
   /// Whether each cell has a far map.
   [[nodiscard]] bool is_fully_mapped() const {
@@ -264,7 +264,9 @@ struct ManifestSeal {
 };
 
 /// The version of the format that a package needs.
-[[nodiscard]] inline std::uint32_t version_of(const Manifest& m) { return m.relief ? relief_format_version : format_version; }
+[[nodiscard]] inline std::uint32_t version_of(const Manifest& m) {
+  return m.far_terrain ? far_terrain_format_version : format_version;
+}
 
 /// What users are told of a package.
 [[nodiscard]] inline PackageDescription described(const Manifest& m) {

@@ -188,7 +188,7 @@ void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   const bool may_lack_crowns = version > canopy_format_version && !j.contains("canopy");
   if (version >= canopy_format_version && !may_lack_crowns) m.canopy = canopy_from(j.at("canopy"));
   if (version > canopy_format_version && j.contains("sources")) m.sources = stamp_from(j.at("sources"));
-  if (version >= relief_format_version) m.relief = stamp_from(j.at("relief"));
+  if (version >= far_terrain_format_version) m.far_terrain = stamp_from(j.at("far_terrain"));
   for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b));
   require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");
   const std::vector<Block> expected = m.grid.blocks();

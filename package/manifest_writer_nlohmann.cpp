@@ -96,7 +96,7 @@ std::string manifest_text(const Manifest& m) {
   for (const package::BlockFiles& b : m.blocks) j["blocks"].push_back(json_of(b));
   if (m.canopy) j["canopy"] = json_of(*m.canopy);
   if (m.sources) j["sources"] = json_of(*m.sources);
-  if (m.relief) j["relief"] = json_of(*m.relief);
+  if (m.far_terrain) j["far_terrain"] = json_of(*m.far_terrain);
   // An id or a name with broken UTF-8 must not end the run
   return sealed(j.dump(1, ' ', false, Json::error_handler_t::replace));
 }

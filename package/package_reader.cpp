@@ -92,7 +92,7 @@ struct PackageReader::Impl {
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
   OpenOnDemand<CrownsFile> open_crowns;
-  OpenOnDemand<ReliefFile> open_relief;
+  OpenOnDemand<FarTerrainFile> open_far_terrain;
   std::mutex held_mutex;
   LruCache held;
 
@@ -180,16 +180,16 @@ struct PackageReader::Impl {
     return open.far_map;
   }
 
-  MeshView relief() {
-    if (memory) return memory->relief;
-    return manifest.relief ? open_relief.open(*folder, manifest, package::relief_file).mesh() : MeshView{};
+  MeshView far_terrain() {
+    if (memory) return memory->far_terrain;
+    return manifest.far_terrain ? open_far_terrain.open(*folder, manifest, package::far_terrain_file).mesh() : MeshView{};
   }
 
   void require_unchanged() const {
     if (memory) return;
     farlod::require_unchanged(folder->file(package::manifest_file), manifest_identity);
     open_crowns.require_unchanged(*folder, package::crowns_file);
-    open_relief.require_unchanged(*folder, package::relief_file);
+    open_far_terrain.require_unchanged(*folder, package::far_terrain_file);
     for (std::size_t n = 0; n < blocks.size(); ++n) {
       if (blocks[n].has_tiles) farlod::require_unchanged(file_of(n, package::tiles_file), blocks[n].tiles_identity);
       if (blocks[n].has_far_map) farlod::require_unchanged(file_of(n, package::far_map_file), blocks[n].far_map_identity);
@@ -279,7 +279,7 @@ const CrownsFile& PackageReader::crowns() const {
   return impl_->open_crowns.open(*impl_->folder, impl_->manifest, package::crowns_file);
 }
 
-MeshView PackageReader::relief() const { return impl_->relief(); }
+MeshView PackageReader::far_terrain() const { return impl_->far_terrain(); }
 
 std::span<const Crown> PackageReader::crowns_of(Cell cell) const {
   FARLOD_EXPECTS(grid().cells.contains(cell));

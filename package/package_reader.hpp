@@ -20,9 +20,9 @@
 #include "package/crowns_file.hpp"
 #include "package/far_map.hpp"
 #include "package/far_map_reader.hpp"
+#include "package/far_terrain.hpp"
 #include "package/manifest.hpp"
 #include "package/package_folder.hpp"
-#include "package/relief.hpp"
 
 namespace farlod {
 
@@ -52,7 +52,7 @@ struct PackageInMemory {
   package::Manifest manifest;                     ///< sizes and checksums of files do not count
   std::vector<std::span<const std::byte>> tiles;  ///< the bytes of `tiles.bin` of each block, in the order of Grid::blocks()
   std::map<Cell, FarHorizon> far_horizons;        ///< of the cells that will be asked for
-  MeshView relief = {};                           ///< as PackageReader::relief
+  MeshView far_terrain = {};                      ///< as PackageReader::far_terrain
 };
 
 /// A package, usually on disk. Blocks are mapped and checked against their checksums when they are first asked for, and kept in
@@ -64,7 +64,8 @@ class PackageReader {
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a
   /// block that is not what the manifest says.
   explicit PackageReader(const std::filesystem::path& folder);
-  /// The bytes of the tiles, and what the far maps view, and the relief must outlive it. It has no far maps of the kind `box`.
+  /// The bytes of the tiles, and what the far maps view, and the far terrain must outlive it. It has no far maps of the kind
+  /// `box`.
   explicit PackageReader(PackageInMemory contents);
   PackageReader(PackageReader&&) noexcept;
   PackageReader& operator=(PackageReader&&) noexcept;
@@ -99,9 +100,9 @@ class PackageReader {
   /// The crowns whose axes lie in a cell, in the frame of the cell, which must exist; none where there are no trees.
   [[nodiscard]] std::span<const Crown> crowns_of(Cell cell) const;
 
-  /// The ground beyond the grid, in the frame of Relief; empty where none is known. The file is opened when it is first asked
+  /// The ground beyond the grid, in the frame of FarTerrain; empty where none is known. The file is opened when it is first asked
   /// for.
-  [[nodiscard]] MeshView relief() const;
+  [[nodiscard]] MeshView far_terrain() const;
 
   /// Compares the manifest and all files that were opened with what they were then: mapped memory is what a file is now, so that
   /// what was checked once may have changed. Throws PackageDamaged. Nothing of a package in memory.

@@ -19,8 +19,8 @@
 #include "base/paging/paged_array.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/surface_kind.hpp"
+#include "package/far_terrain.hpp"
 #include "package/horizon_edge.hpp"
-#include "package/relief.hpp"
 
 namespace farlod {
 
@@ -120,7 +120,7 @@ struct TileSet {
   CellRange cells;
   std::vector<Tile> tiles;                 ///< one for each cell, in the order of CellRange::index_of
   std::shared_ptr<const TilePages> pages;  ///< what the tiles view; none where each holds its own
-  Relief relief;                           ///< beyond the cells; may be empty
+  FarTerrain far_terrain;                  ///< beyond the cells; may be empty
   PagedArray<Surface> surfaces;
   std::vector<std::string> building_ids;
   TileSources sources;

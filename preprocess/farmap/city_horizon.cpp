@@ -20,8 +20,8 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
     gather(tiles.tiles[n], cells_.cell_at(n));
   }
   first_of_cell_.push_back(static_cast<std::uint32_t>(occluders_.size()));
-  if (!tiles.relief.horizon_edges.empty()) {
-    add_beyond(tiles.relief);
+  if (!tiles.far_terrain.horizon_edges.empty()) {
+    add_beyond(tiles.far_terrain);
     return;
   }
   if (occluders_.empty()) return;
@@ -30,9 +30,9 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
 }
 
 /// The root divides the city and what lies beyond it.
-void CityHorizon::add_beyond(const Relief& relief) {
+void CityHorizon::add_beyond(const FarTerrain& far_terrain) {
   const auto first = static_cast<std::uint32_t>(occluders_.size());
-  for (const HorizonEdge& e : relief.horizon_edges)
+  for (const HorizonEdge& e : far_terrain.horizon_edges)
     occluders_.push_back({{e.a.x, e.a.y, e.a.z}, {e.b.x, e.b.y, e.b.z}, e.adjacent, e.role});
   nodes_.resize(3);
   nodes_[0].children = 1;

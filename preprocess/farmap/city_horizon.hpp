@@ -30,7 +30,7 @@ struct OccluderEdge {
   }
 };
 
-/// All occluders of a city, and of the relief around it, below a tree of boxes (a bounding volume hierarchy), so that whole
+/// All occluders of a city, and of the far terrain around it, below a tree of boxes (a bounding volume hierarchy), so that whole
 /// subtrees can be culled. Its upper part divides the cells; what stands in a cell is divided further, so that the nearer part of
 /// it can hide the farther. Those of a large city lie on disk (PagedArray): a cell looks at the tree, and at the occluders around
 /// it. Frame: the grid frame moved to the corner of the middle cell, with heights as in the tiles.
@@ -47,23 +47,25 @@ class CityHorizon {
     Box2d outline;
     double z_high_m = 0.0;
     double z_underside_m = 0.0;  ///< of the highest underside; less than any height where there is none
-    Cell cell;                   ///< of a leaf; some have the same, and all of the relief have `beyond_grid`
+    Cell cell;                   ///< of a leaf; some have the same, and all of the far terrain have `beyond_grid`
     std::uint32_t children = 0;  ///< index of the first of two; 0 for a leaf
     std::uint32_t first_occluder = 0, occluder_count = 0;
   };
   /// The root is the first, unless the city is empty.
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const OccluderEdge> occluders() const { return occluders_; }
-  [[nodiscard]] bool has_relief() const { return nodes_.size() > 2 && nodes_[2].cell == beyond_grid; }
-  /// Whether the occluder of a number is of the relief.
-  [[nodiscard]] bool is_relief(std::uint32_t number) const { return has_relief() && number >= nodes_[2].first_occluder; }
+  [[nodiscard]] bool has_far_terrain() const { return nodes_.size() > 2 && nodes_[2].cell == beyond_grid; }
+  /// Whether the occluder of a number is of the far terrain.
+  [[nodiscard]] bool is_far_terrain(std::uint32_t number) const {
+    return has_far_terrain() && number >= nodes_[2].first_occluder;
+  }
   /// Gives back the memory of both, as far as they lie on disk.
   void let_go() const;
   [[nodiscard]] Point2d corner_of(Cell cell) const { return grid_.corner_of(cell) - origin_grid_; }
 
  private:
   void gather(const Tile& tile, Cell cell);
-  void add_beyond(const Relief& relief);
+  void add_beyond(const FarTerrain& far_terrain);
   void build(std::uint32_t node, const CellRange& range);
   void build_in_cell(std::uint32_t node, Cell cell, std::uint32_t first, std::uint32_t count);
   [[nodiscard]] Node leaf_of(Cell cell, std::uint32_t first, std::uint32_t count) const;

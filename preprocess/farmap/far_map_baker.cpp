@@ -28,10 +28,10 @@ FarHeightBound::FarHeightBound(const TileSet& tiles, const Grid& grid) : grid_(g
     tiles_.push_back(prism);
   }
   const Point2d origin_grid = grid.middle_corner();
-  for (const Triangle& t : tiles.relief.triangles) {
-    Prism& prism = relief_.emplace_back(Prism{{}, -std::numeric_limits<float>::infinity()});
+  for (const Triangle& t : tiles.far_terrain.triangles) {
+    Prism& prism = far_terrain_.emplace_back(Prism{{}, -std::numeric_limits<float>::infinity()});
     for (const std::uint32_t v : {t.a, t.b, t.c}) {
-      const Point3f& p = tiles.relief.vertices[v];
+      const Point3f& p = tiles.far_terrain.vertices[v];
       prism.outline_grid.add(origin_grid + Point2d{p.x, p.y});
       prism.height_m = std::max(prism.height_m, p.z);
     }
@@ -60,7 +60,7 @@ float FarHeightBound::top(Cell cell, float capture_height_m) const {
   const Point2d centre = grid_.centre_of(cell);
   const CellRange near = grid_.neighborhood_of(cell);
   double top = 0.0;
-  for (const Prism& triangle : relief_) top = std::max(top, slope(triangle, centre, capture_height_m));
+  for (const Prism& triangle : far_terrain_) top = std::max(top, slope(triangle, centre, capture_height_m));
   for (const BlockPrism& block : blocks_) {
     if (slope(block.prism, centre, capture_height_m) <= top) continue;
     for (std::size_t n = 0; n < static_cast<std::size_t>(block.cells.size()); ++n) {
@@ -92,7 +92,7 @@ CityOccluder::CityOccluder(const TileSet& tiles, const Grid& grid)
       origin_grid_(grid.middle_corner()),
       first_triangle_(first_triangles(tiles)),
       occluder_(occluder_of_cells(
-          grid, cells_, origin_grid_, [&](Cell c) { return tiles.tile(c).mesh(); }, {}, tiles.relief.mesh())) {}
+          grid, cells_, origin_grid_, [&](Cell c) { return tiles.tile(c).mesh(); }, {}, tiles.far_terrain.mesh())) {}
 
 Cell CityOccluder::cell_of_triangle(std::uint32_t triangle) const {
   if (triangle >= first_triangle_.back()) return beyond_grid;
@@ -147,8 +147,8 @@ float BoxMapBaker::distance_m(const Point3f& capture, const Point3d& d, const Ce
   Ray ray{capture, {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)}};
   std::optional<Hit> hit;
   const auto is_far = [&](std::uint32_t triangle) { return !near.contains(city_.cell_of_triangle(triangle)); };
-  const bool relief_may_be_near = !tiles_.relief.empty() && near.intersection(grid_.cells) != near;
-  if (assign_ == Assign::clip && !relief_may_be_near) {
+  const bool far_terrain_may_be_near = !tiles_.far_terrain.empty() && near.intersection(grid_.cells) != near;
+  if (assign_ == Assign::clip && !far_terrain_may_be_near) {
     const double border_m = grid_.neighborhood_half_edge_m();
     ray.begin = static_cast<float>(border_m * (1.0 - border_rounding));
     hit = city_.occluder().nearest(ray);
@@ -156,8 +156,8 @@ float BoxMapBaker::distance_m(const Point3f& capture, const Point3d& d, const Ce
     if (hit && hit->distance < border_m * (1.0 + border_rounding) && !is_far(hit->triangle))
       hit = city_.occluder().nearest(ray, is_far);
   } else {
-    // Whole buildings cross the border, and the relief begins at that of the grid: what a triangle belongs to decides, not where
-    // it stands
+    // Whole buildings cross the border, and the far terrain begins at that of the grid: what a triangle belongs to decides, not
+    // where it stands
     hit = city_.occluder().nearest(ray, is_far);
   }
   return hit ? static_cast<float>(hit->distance * norm(d)) : std::numeric_limits<float>::infinity();

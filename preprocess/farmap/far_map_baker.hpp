@@ -41,12 +41,12 @@ class FarHeightBound {
 
   const Grid& grid_;
   CellRange cells_;
-  std::vector<Prism> tiles_, relief_;
+  std::vector<Prism> tiles_, far_terrain_;
   std::vector<BlockPrism> blocks_;
 };
 
-/// All tiles and the relief as one occluder. Its frame is the grid frame, moved to the corner of the middle cell so that floats
-/// are finest in the city, with heights as in the tiles.
+/// All tiles and the far terrain as one occluder. Its frame is the grid frame, moved to the corner of the middle cell so that
+/// floats are finest in the city, with heights as in the tiles.
 class CityOccluder {
  public:
   CityOccluder(const TileSet& tiles, const Grid& grid);
@@ -55,13 +55,13 @@ class CityOccluder {
   [[nodiscard]] Point3f frame_from_grid(Point2d p_grid, float height_m) const {
     return {static_cast<float>(p_grid.x - origin_grid_.x), static_cast<float>(p_grid.y - origin_grid_.y), height_m};
   }
-  /// The cell whose tile holds a triangle of the occluder; beyond_grid for the relief.
+  /// The cell whose tile holds a triangle of the occluder; beyond_grid for the far terrain.
   [[nodiscard]] Cell cell_of_triangle(std::uint32_t triangle) const;
 
  private:
   CellRange cells_;
   Point2d origin_grid_;
-  std::vector<std::uint32_t> first_triangle_;  ///< of each tile, and of the relief
+  std::vector<std::uint32_t> first_triangle_;  ///< of each tile, and of the far terrain
   Occluder occluder_;
 };
 

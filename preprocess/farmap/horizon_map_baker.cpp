@@ -40,7 +40,7 @@ class OccluderClassifier {
   const ReceiverCell& cell_;
   const ViewpointHorizons& viewpoints_;
   const AzimuthBins& bins_;
-  double tolerance_of_city_, tolerance_of_relief_;
+  double tolerance_of_city_, tolerance_of_far_terrain_;
   double tolerance_ = 0.0;  ///< of the current occluder; at first the smaller one of those that there are
   BakedHorizon& map_;
   std::vector<float> lowest_horizon_;      ///< rows as in the map: the lowest horizon that the patch's viewpoints see
@@ -59,13 +59,13 @@ OccluderClassifier::OccluderClassifier(const CityHorizon& city, const ReceiverCe
       viewpoints_(viewpoints),
       bins_(borders.bins()),
       tolerance_of_city_(settings.tolerance),
-      tolerance_of_relief_(std::min(settings.relief_tolerance, settings.tolerance)),
+      tolerance_of_far_terrain_(std::min(settings.far_terrain_tolerance, settings.tolerance)),
       map_(map),
       lowest_horizon_(map.high.size()),
       significant_above_(map.high.size()),
       grounded_low_(map.high.size()),
       edge_(borders) {
-  tolerance_ = city.has_relief() ? tolerance_of_relief_ : tolerance_of_city_;
+  tolerance_ = city.has_far_terrain() ? tolerance_of_far_terrain_ : tolerance_of_city_;
   for (std::uint32_t patch = 0; patch < cell_.patches.count(); ++patch) set_thresholds(patch);
 }
 
@@ -87,7 +87,7 @@ void OccluderClassifier::set_thresholds(std::uint32_t patch) {
 std::uint32_t OccluderClassifier::classify(std::uint32_t number) {
   const OccluderEdge& occluder = city_.occluders()[number];
   const OccluderEdge placed = occluder.from(cell_.corner);
-  tolerance_ = city_.is_relief(number) ? tolerance_of_relief_ : tolerance_of_city_;
+  tolerance_ = city_.is_far_terrain(number) ? tolerance_of_far_terrain_ : tolerance_of_city_;
   package::ExplicitOccluder explicit_in{number, 0, 0};
   for (std::uint32_t square = 0; square < cell_.patches.squares(); ++square) {
     const PatchBox box = cell_.patches.box(square);

@@ -31,9 +31,9 @@ struct HorizonMapSettings {
   double tolerance = 0.05;
   /// A hidden occluder is weak, and counts for the estimate, where it may rise by more than this share of the tolerance.
   double weak_share = 0.6;
-  /// The same two of the relief beyond the grid, both as sines: its ridges are long, so that what is wrong with the one half of a
-  /// ridge is wrong with the other.
-  double relief_tolerance = 0.005, weak_relief = 0.001;
+  /// The same two of the far terrain beyond the grid, both as sines: its ridges are long, so that what is wrong with the one half
+  /// of a ridge is wrong with the other.
+  double far_terrain_tolerance = 0.005, weak_far_terrain = 0.001;
 };
 
 struct FarMapSettings {

@@ -101,13 +101,14 @@ OcclusionCuller::OcclusionCuller(const CityHorizon& city, const ReceiverCell& ce
       bins_(borders.bins()),
       result_{{}, {}, ViewpointHorizons(cell.square.high.x, cell.patches, borders), {}, {}},
       of_city_{settings.weak_share * settings.tolerance, settings.tolerance},
-      of_relief_{std::min(settings.weak_relief, settings.tolerance), std::min(settings.relief_tolerance, settings.tolerance)},
+      of_far_terrain_{std::min(settings.weak_far_terrain, settings.tolerance),
+                      std::min(settings.far_terrain_tolerance, settings.tolerance)},
       leaf_bound_(cell.patches.layers(), 0.0),
       edge_(borders_) {
   result_.high.assign(std::size_t{cell.patches.layers()} * bins_.count, 0.0F);
   result_.overhang = result_.high;
   lowest_horizon_.assign(result_.high.size(), -1.0F);
-  for (Thresholds* thresholds : {&of_city_, &of_relief_}) {
+  for (Thresholds* thresholds : {&of_city_, &of_far_terrain_}) {
     thresholds->weak_above.resize(result_.high.size());
     thresholds->significant_above.resize(result_.high.size());
   }
@@ -127,7 +128,7 @@ CullResult OcclusionCuller::run() && {
     const auto [distance_m, n] = queue.top();
     queue.pop();
     const CityHorizon::Node& node = city_.nodes()[n];
-    is_relief_ = node.cell == beyond_grid;
+    is_far_terrain_ = node.cell == beyond_grid;
     // Cull a node as a whole, descend into it, or visit the occluders of its cell, unless that is near
     if (cull_node(node, distance_m)) continue;
     if (node.children != 0) {
@@ -300,7 +301,7 @@ void OcclusionCuller::update_thresholds(const BinRange& range) {
       if (lowest == lowest_horizon_[index]) continue;
       lowest_horizon_[index] = lowest;
       of_city_.raise(index, lowest);
-      if (city_.has_relief()) of_relief_.raise(index, lowest);
+      if (city_.has_far_terrain()) of_far_terrain_.raise(index, lowest);
     }
   });
 }

@@ -76,7 +76,7 @@ struct ReceiverCell {
 ///   (1) each upper border outside of the neighborhood is a candidate, or lies below `high` from all over the cell
 ///   (2) an upper border that is no candidate rises by no more than the tolerance over what the viewpoints see of the nearer city
 ///   (3) one that is not weak either rises by no more than HorizonMapSettings::weak_share of the tolerance
-///       (the relief has tolerances of its own for both)
+///       (the far terrain has tolerances of its own for both)
 ///   (4) each lower border outside of the neighborhood is a candidate, or lies likewise below `overhang`
 struct CullResult {
   std::vector<std::uint32_t> candidates;  ///< numbers of occluders, from near to far
@@ -109,7 +109,7 @@ class OcclusionCuller {
   void visit_leaf(const CityHorizon::Node& leaf, double distance_m);
   [[nodiscard]] bool faces_away(const OccluderEdge& occluder) const;
   /// Of the current occluders.
-  [[nodiscard]] Thresholds& thresholds() { return is_relief_ ? of_relief_ : of_city_; }
+  [[nodiscard]] Thresholds& thresholds() { return is_far_terrain_ ? of_far_terrain_ : of_city_; }
   void update_leaf_bound(const BinRange& range);
   [[nodiscard]] bool is_below_leaf_bound(const OccluderEdge& occluder) const;
   enum class Visibility : std::uint8_t { hidden, weak, significant };
@@ -123,10 +123,10 @@ class OcclusionCuller {
   const ReceiverCell& cell_;
   const BinBorders& borders_;
   const AzimuthBins& bins_;
-  bool is_relief_ = false;  ///< the current node is of the relief
+  bool is_far_terrain_ = false;  ///< the current node is of the far terrain
   CullResult result_;
   std::vector<float> lowest_horizon_;
-  Thresholds of_city_, of_relief_;
+  Thresholds of_city_, of_far_terrain_;
   std::vector<double> leaf_bound_;  ///< for each layer: what stays below this slope is culled and bounded in all bins of the leaf
   EdgeOverSquare edge_;             ///< the current occluder, seen from all over the cell
   std::vector<double> bounds_;      ///< of the current occluder: EdgeOverSquare::high, level by level

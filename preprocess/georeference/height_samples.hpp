@@ -21,8 +21,8 @@ struct PixelLattice {
   std::uint32_t nodes = 1;  ///< along either side
 };
 
-/// A raster of heights as it is, pixel by pixel in its own frame: a relief of 100 km needs few of them far away, and is never
-/// resampled. Units, masks and stand-ins for no data are as for read_terrain.
+/// A raster of heights as it is, pixel by pixel in its own frame: a far terrain of 100 km needs few of them far away, and is
+/// never resampled. Units, masks and stand-ins for no data are as for read_terrain.
 class HeightSamples {
  public:
   /// A raster without a CRS is in `fallback_crs` or, if that is empty, in the output CRS. Throws InputError.

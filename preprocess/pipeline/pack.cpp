@@ -12,6 +12,7 @@
 #include "base/cancellation.hpp"
 #include "base/paging/memory_bound.hpp"
 #include "base/shard_parts.hpp"
+#include "far_terrain/far_terrain.hpp"
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/resolved_source.hpp"
@@ -23,7 +24,6 @@
 #include "pipeline/city_reading.hpp"
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_target.hpp"
-#include "relief/far_relief.hpp"
 #include "tiles/crowns_on_ground.hpp"
 
 namespace farlod::pipeline {
@@ -154,7 +154,7 @@ class Packing {
 
   void write_beside_blocks(const std::filesystem::path& folder, TileSet& tiles, std::optional<CrownsOfCity>& crowns) {
     package::Manifest& m = record_.result.manifest;
-    m.relief = write_relief(folder, tiles.relief);
+    m.far_terrain = write_far_terrain(folder, tiles.far_terrain);
     m.sources = write_sources(folder, std::exchange(tiles.sources, {}), sources_);
     if (crowns) timed("crowns", [&] { m.canopy = write_canopy(folder, *crowns); });
   }
@@ -205,17 +205,18 @@ class Packing {
   }
 
   /// The ground beyond the grid; none where no raster may have it.
-  Relief relief_around(const Georeference& place, const std::optional<georeference::TerrainFile>& terrain,
-                       const tiles::Ground& ground, double height_origin_m) {
-    std::vector<relief::ReliefSource> sources;
+  FarTerrain far_terrain_around(const Georeference& place, const std::optional<georeference::TerrainFile>& terrain,
+                                const tiles::Ground& ground, double height_origin_m) {
+    std::vector<far_terrain::FarTerrainSource> sources;
     if (terrain) sources.push_back({*terrain, settings_.terrain_offset_m, true});
     for (const std::filesystem::path& file : settings_.far_terrains) sources.push_back({file});
     if (sources.empty()) return {};
-    const relief::CityGround city{place, record_.result.manifest.grid, height_origin_m, ground.lowest_m().value_or(0.0),
-                                  [&ground](Point2d p) { return ground.height_at(p); }};
-    Relief found;
-    timed("relief", [&] {
-      found = relief::far_relief(sources, settings_.georeference.crs, city, {}, report_, record_.result.notes, run_.stop);
+    const far_terrain::CityGround city{place, record_.result.manifest.grid, height_origin_m, ground.lowest_m().value_or(0.0),
+                                       [&ground](Point2d p) { return ground.height_at(p); }};
+    FarTerrain found;
+    timed("far_terrain", [&] {
+      found = far_terrain::far_terrain_around(sources, settings_.georeference.crs, city, {}, report_, record_.result.notes,
+                                              run_.stop);
     });
     return found;
   }
@@ -224,9 +225,9 @@ class Packing {
   TileSet cut_tiles(ReadCity city, tiles::TreesOfCity trees, std::optional<CrownsOfCity>& crowns) {
     const std::size_t known = report_.problems().size();
     const Georeference place = city.located.georeference;
-    Relief relief;
+    FarTerrain far_terrain;
     const tiles::OnGround on_ground = [&](const tiles::Ground& ground, double height_origin_m) {
-      relief = relief_around(place, city.terrain_file, ground, height_origin_m);
+      far_terrain = far_terrain_around(place, city.terrain_file, ground, height_origin_m);
       if (!trees.any()) return;
       tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
       crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
@@ -235,7 +236,7 @@ class Packing {
     };
     TileSet tiles = tiles::cut_into_tiles(std::move(city.located), city.ground.grid, settings_.assign, city.ground.terrain,
                                           report_, run_.stop, on_ground);
-    tiles.relief = std::move(relief);
+    tiles.far_terrain = std::move(far_terrain);
     if (const auto crs = georeference::Crs::find(place.crs_wkt)) {
       georeference::ProblemLocator locator(*crs, georeference::FileAxes{}, place.origin_m);
       for (Problem& problem : report_.since(known)) locator.locate(problem);

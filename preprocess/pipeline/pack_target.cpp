@@ -250,7 +250,7 @@ std::uint64_t bytes_of(const fs::path& package, const package::Manifest& manifes
   for (const package::BlockFiles& b : manifest.blocks) bytes += b.tiles.bytes + b.far_map.bytes;
   if (manifest.canopy) bytes += manifest.canopy->stamp.bytes;
   if (manifest.sources) bytes += manifest.sources->bytes;
-  if (manifest.relief) bytes += manifest.relief->bytes;
+  if (manifest.far_terrain) bytes += manifest.far_terrain->bytes;
   return bytes;
 }
 

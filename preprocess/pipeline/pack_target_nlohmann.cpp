@@ -57,7 +57,7 @@ Json json_of(const package::Manifest& m) {
           {"problems", m.problem_counts},
           {"canopy", m.canopy ? json_of(*m.canopy) : Json()},
           {"sources", json_of(m.sources)},
-          {"relief", json_of(m.relief)}};
+          {"far_terrain", json_of(m.far_terrain)}};
 }
 package::Manifest manifest_from(const Json& j) {
   package::Manifest m;
@@ -79,7 +79,7 @@ package::Manifest manifest_from(const Json& j) {
   j.at("problems").get_to(m.problem_counts);
   if (const Json& canopy = j.at("canopy"); !canopy.is_null()) m.canopy = canopy_from(canopy);
   m.sources = stamp_from(j.at("sources"));
-  m.relief = stamp_from(j.at("relief"));
+  m.far_terrain = stamp_from(j.at("far_terrain"));
   return m;
 }
 

@@ -149,7 +149,7 @@ struct FarMapTrial::Impl {
   }
 
   [[nodiscard]] PackageInMemory contents(int neighborhood, std::map<Cell, FarHorizon> far_horizons) const {
-    PackageInMemory result{manifest, {tile_bytes.begin(), tile_bytes.end()}, std::move(far_horizons), tiles.relief.mesh()};
+    PackageInMemory result{manifest, {tile_bytes.begin(), tile_bytes.end()}, std::move(far_horizons), tiles.far_terrain.mesh()};
     result.manifest.grid.neighborhood = neighborhood;
     return result;
   }

@@ -27,7 +27,7 @@ class BytesRead {
     for (const package::BlockFiles& files : manifest.blocks) all_ += files.tiles.bytes + files.far_map.bytes;
     if (manifest.canopy) all_ += manifest.canopy->stamp.bytes;
     if (manifest.sources) all_ += manifest.sources->bytes;
-    if (manifest.relief) all_ += manifest.relief->bytes;
+    if (manifest.far_terrain) all_ += manifest.far_terrain->bytes;
   }
   void add(std::uint64_t bytes) {
     throw_if_cancelled(run_.stop);
@@ -104,7 +104,7 @@ void check_files_of_city(const PackageContents& contents, BytesRead& read, Packa
   check_file(
       package::sources_file, m.sources, [&] { (void)SourcesFile(folder, m); }, read, check);
   check_file(
-      package::relief_file, m.relief, [&] { (void)ReliefFile(folder, m); }, read, check);
+      package::far_terrain_file, m.far_terrain, [&] { (void)FarTerrainFile(folder, m); }, read, check);
 }
 
 /// The blocks together; what can be said of the package as a whole comes last.

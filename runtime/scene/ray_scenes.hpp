@@ -18,8 +18,8 @@ namespace farlod {
 /// The tiles of the neighborhood of `cell`, in the frame of `cell`. Neighbors that do not exist are empty.
 [[nodiscard]] Occluder near_scene(const PackageReader& package, Cell cell);
 
-/// All tiles of a package and its relief as one scene: the reference that needs no far map. Its frame is the grid frame moved to
-/// the corner of the middle cell, with heights as on disk. Costs memory in proportion to the city.
+/// All tiles of a package and its far terrain as one scene: the reference that needs no far map. Its frame is the grid frame
+/// moved to the corner of the middle cell, with heights as on disk. Costs memory in proportion to the city.
 class WholeCity {
  public:
   /// Throws Cancelled when `stop` is asked for meanwhile.

@@ -100,11 +100,11 @@ TEST_F(FarTerrain, IsNotThereWhereTheTerrainIs) {
 TEST_F(FarTerrain, APackageSaysWhetherItHasOne) {
   folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }));
   pack("--terrain terrain.asc");
-  EXPECT_FALSE(folder.json_of("a.farlod/manifest.json").contains("relief")) << "level ground hides nothing";
+  EXPECT_FALSE(folder.json_of("a.farlod/manifest.json").contains("far_terrain")) << "level ground hides nothing";
   EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("version"), 10);
   folder.write("far.asc", plateau(2000.0, 600.0, 50.0, 3000.0));
   pack("--terrain terrain.asc --far-terrain far.asc --force");
-  EXPECT_TRUE(folder.json_of("a.farlod/manifest.json").contains("relief"));
+  EXPECT_TRUE(folder.json_of("a.farlod/manifest.json").contains("far_terrain"));
   EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("version"), 11);
   folder.must("farlod-info a.farlod --check");
 }

@@ -11,7 +11,7 @@
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 
 /// A half-plane: what is beyond its line has a positive offset.
 struct HalfPlane {
@@ -62,4 +62,4 @@ struct HalfPlane {
   return parts;
 }
 
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "relief/right_triangles.hpp"
+#include "far_terrain/right_triangles.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +9,7 @@
 
 #include "base/expects.hpp"
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<Triangle> RightTriangles::triangulate(const HeightsOfSquare& heights
   return triangles;
 }
 
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain

@@ -8,7 +8,7 @@
 
 #include "base/mesh_view.hpp"
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 
 /// Heights at the nodes of a square, row by row; NaN where there is none.
 struct HeightsOfSquare {
@@ -45,4 +45,4 @@ class RightTriangles {
   std::vector<float> excess_;
 };
 
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain

@@ -11,13 +11,13 @@
 #include "city/city_model.hpp"
 #include "farlod/problem.hpp"
 #include "georeference/raster_reader.hpp"
-#include "package/relief.hpp"
+#include "package/far_terrain.hpp"
 #include "tiles/ground.hpp"
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 
 /// How much of a terrain beyond the grid is kept.
-struct ReliefSettings {
+struct FarTerrainSettings {
   /// Heights are kept to within this share of their distance from the grid: a sine of the elevation, about.
   double tolerance = 0.001;
   double nearest_m = 100.0;              ///< what is nearer counts as this far away
@@ -25,7 +25,7 @@ struct ReliefSettings {
   std::size_t most_triangles = 400'000;  ///< with more, the tolerance is doubled
 };
 
-/// What is known of the ground around a city before its relief is made.
+/// What is known of the ground around a city before its far terrain is made.
 struct CityGround {
   const Georeference& georeference;
   const Grid& grid;
@@ -38,14 +38,14 @@ struct CityGround {
 [[nodiscard]] double sinking_m(double distance_m);
 
 /// A raster of heights, and what is added to them.
-struct ReliefSource {
+struct FarTerrainSource {
   georeference::TerrainFile file;
   double offset_m = 0.0;
   bool is_ground = false;  ///< the ground of the city is a part of it
 };
 
-/// The relief of rasters beyond the grid.
-///   (1) each pixel beyond the grid and within `farthest_m` is within the tolerance of the relief, but where pixels are seen
+/// The far terrain of rasters beyond the grid.
+///   (1) each pixel beyond the grid and within `farthest_m` is within the tolerance of the far terrain, but where pixels are seen
 ///   under
 ///       less than the tolerance: of those, some are left out
 ///   (2) where rasters overlap, the first counts that has a height
@@ -56,8 +56,8 @@ struct ReliefSource {
 ///   (5) a raster that is not the ground of the city, and stands above or below it along the border of the grid (border_step), is
 ///       reported as of another datum
 /// Throws InputError when a file cannot be read, or when (5) is so all around; Cancelled. `notes` are for the user.
-[[nodiscard]] Relief far_relief(std::span<const ReliefSource> sources, const std::string& fallback_crs, const CityGround& city,
-                                const ReliefSettings& settings, Report& report, std::vector<std::string>& notes,
-                                const std::stop_token& stop = {});
+[[nodiscard]] FarTerrain far_terrain_around(std::span<const FarTerrainSource> sources, const std::string& fallback_crs,
+                                            const CityGround& city, const FarTerrainSettings& settings, Report& report,
+                                            std::vector<std::string>& notes, const std::stop_token& stop = {});
 
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "relief/right_triangles.hpp"
+#include "far_terrain/right_triangles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <optional>
 #include <random>
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 namespace {
 
 constexpr std::uint32_t side = 32, along = side + 1;
@@ -86,4 +86,4 @@ TEST(RightTriangles, LeaveAHoleWhereThereIsNoHeight) {
 }
 
 }  // namespace
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "relief/cut_out.hpp"
+#include "far_terrain/cut_out.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 namespace {
 
 double area_of(const std::array<Point3d, 3>& t) {
@@ -64,4 +64,4 @@ TEST(CutOut, TrianglesBesideEachOtherStillMeet) {
 }
 
 }  // namespace
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain

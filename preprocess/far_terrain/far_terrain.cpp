@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "relief/far_relief.hpp"
+#include "far_terrain/far_terrain.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,15 +12,15 @@
 #include <sstream>
 
 #include "base/cancellation.hpp"
+#include "far_terrain/cut_out.hpp"
+#include "far_terrain/right_triangles.hpp"
 #include "farlod/error.hpp"
 #include "georeference/height_samples.hpp"
 #include "package/tiles_writer.hpp"
 #include "plausibility/border_step.hpp"
-#include "relief/cut_out.hpp"
-#include "relief/right_triangles.hpp"
 #include "tiles/horizon_edges.hpp"
 
-namespace farlod::relief {
+namespace farlod::far_terrain {
 namespace {
 
 using georeference::HeightSamples;
@@ -109,10 +109,10 @@ class Coverage {
   std::vector<float> height_m_;
 };
 
-/// Makes the relief of one tolerance; gives up where it gets too many triangles.
-class ReliefMaker {
+/// Makes the far terrain of one tolerance; gives up where it gets too many triangles.
+class FarTerrainMaker {
  public:
-  ReliefMaker(const CityGround& city, const ReliefSettings& settings, const std::stop_token& stop)
+  FarTerrainMaker(const CityGround& city, const FarTerrainSettings& settings, const std::stop_token& stop)
       : city_(city), settings_(settings), stop_(stop), rectangle_(city.grid.rectangle()) {}
 
   /// Adds what a raster has where those before it have nothing. Returns false where there are too many triangles.
@@ -129,20 +129,21 @@ class ReliefMaker {
   /// How much higher than the city's ground the raster is that was added last, where the grid ends.
   [[nodiscard]] const std::vector<double>& border_steps_m() const { return border_steps_m_; }
 
-  [[nodiscard]] Relief take() {
-    Relief relief{vertices_.vertices(), std::move(triangles_), {}};
+  [[nodiscard]] FarTerrain take() {
+    FarTerrain far_terrain{vertices_.vertices(), std::move(triangles_), {}};
     tiles::EdgeTable edges;
     const auto corner = [&](std::uint32_t v) {
-      const Point3f& p = relief.vertices[v];
+      const Point3f& p = far_terrain.vertices[v];
       return Point3d{p.x, p.y, p.z};
     };
-    for (const Triangle& t : relief.triangles) edges.add_triangle(corner(t.a), corner(t.b), corner(t.c), tiles::FacetLook::up);
+    for (const Triangle& t : far_terrain.triangles)
+      edges.add_triangle(corner(t.a), corner(t.b), corner(t.c), tiles::FacetLook::up);
     const auto rounded = [](const Point3d& p) {
       return Point3f{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     };
     for (const tiles::HorizonSegment& e : edges.horizon_edges())
-      relief.horizon_edges.push_back({rounded(e.segment.a), rounded(e.segment.b), e.adjacent, e.role});
-    return relief;
+      far_terrain.horizon_edges.push_back({rounded(e.segment.a), rounded(e.segment.b), e.adjacent, e.role});
+    return far_terrain;
   }
 
  private:
@@ -258,7 +259,7 @@ class ReliefMaker {
   }
 
   const CityGround& city_;
-  ReliefSettings settings_;
+  FarTerrainSettings settings_;
   const std::stop_token& stop_;
   Box2d rectangle_;
   RightTriangles triangulation_{side};
@@ -278,7 +279,8 @@ std::string metres(double length_m) {
   return std::move(text).str();
 }
 
-void require_same_level(const ReliefSource& source, const std::vector<double>& steps_m, const CityGround& city, Report& report) {
+void require_same_level(const FarTerrainSource& source, const std::vector<double>& steps_m, const CityGround& city,
+                        Report& report) {
   const auto step = plausibility::border_step(steps_m);
   if (source.is_ground || !step) return;
   const std::string what = "where the grid ends, it is " + metres(step->median_m) +
@@ -291,21 +293,21 @@ void require_same_level(const ReliefSource& source, const std::vector<double>& s
 
 /// The rasters around a city, and where they have heights.
 struct Surroundings {
-  std::span<const ReliefSource> sources;
+  std::span<const FarTerrainSource> sources;
   std::vector<HeightSamples> rasters = {};
   std::vector<Coverage> coverages = {};
 
-  Surroundings(std::span<const ReliefSource> of, const std::string& fallback_crs, const CityGround& city, Report& report)
+  Surroundings(std::span<const FarTerrainSource> of, const std::string& fallback_crs, const CityGround& city, Report& report)
       : sources(of) {
-    for (const ReliefSource& source : sources) rasters.emplace_back(source.file, fallback_crs, city.georeference, report);
+    for (const FarTerrainSource& source : sources) rasters.emplace_back(source.file, fallback_crs, city.georeference, report);
     for (std::size_t n = 0; n + 1 < rasters.size(); ++n) coverages.emplace_back(rasters[n]);
   }
 };
 
 /// Nothing where there are too many triangles.
-std::optional<Relief> relief_within(const Surroundings& around, const CityGround& city, const ReliefSettings& settings,
-                                    Report& report, const std::stop_token& stop) {
-  ReliefMaker maker(city, settings, stop);
+std::optional<FarTerrain> far_terrain_within(const Surroundings& around, const CityGround& city,
+                                             const FarTerrainSettings& settings, Report& report, const std::stop_token& stop) {
+  FarTerrainMaker maker(city, settings, stop);
   Report found;
   for (std::size_t n = 0; n < around.rasters.size(); ++n) {
     if (!maker.add(around.rasters[n], around.sources[n].offset_m, std::span(around.coverages).subspan(0, n))) return std::nullopt;
@@ -322,21 +324,22 @@ double sinking_m(double distance_m) {
   return (1.0 - refraction) * distance_m * distance_m / (2.0 * earth_radius_m);
 }
 
-Relief far_relief(std::span<const ReliefSource> sources, const std::string& fallback_crs, const CityGround& city,
-                  const ReliefSettings& settings, Report& report, std::vector<std::string>& notes, const std::stop_token& stop) {
+FarTerrain far_terrain_around(std::span<const FarTerrainSource> sources, const std::string& fallback_crs, const CityGround& city,
+                              const FarTerrainSettings& settings, Report& report, std::vector<std::string>& notes,
+                              const std::stop_token& stop) {
   const Surroundings around(sources, fallback_crs, city, report);
-  ReliefSettings coarser = settings;
+  FarTerrainSettings coarser = settings;
   for (;; coarser.tolerance *= 2.0) {
-    auto relief = relief_within(around, city, coarser, report, stop);
-    if (!relief) continue;
+    auto far_terrain = far_terrain_within(around, city, coarser, report, stop);
+    if (!far_terrain) continue;
     if (coarser.tolerance > settings.tolerance) {
       std::ostringstream text;
       text << "The terrain beyond the grid is rough: its heights are kept to within " << 100.0 * coarser.tolerance
            << " % of their distance, to keep it to " << settings.most_triangles << " triangles.";
       notes.push_back(std::move(text).str());
     }
-    return std::move(*relief);
+    return std::move(*far_terrain);
   }
 }
 
-}  // namespace farlod::relief
+}  // namespace farlod::far_terrain
