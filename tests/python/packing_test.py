@@ -131,6 +131,19 @@ def test_terrain_in_memory(tmp_path: Path) -> None:
     assert city.evaluate([[690005.0, 5.3e6 + 5.0]]).height[0] == pytest.approx(101.5, abs=0.01)
 
 
+def test_far_terrain_in_memory(tmp_path: Path) -> None:
+    squares = [shapely.geometry.box(690020.0, 5.3e6 + 20, 690030.0, 5.3e6 + 30)]
+    frame = geopandas.GeoDataFrame({"h": [6.0]}, geometry=squares, crs="EPSG:25832")
+    steps = np.arange(-2000.0, 2001.0, 100.0)
+    x, y = np.meshgrid(690025.0 + steps, 5.3e6 + 25 - steps)
+    heights = np.where(np.hypot(x - 690025.0, y - 5.3e6 - 25) < 1000.0, 0.0, 500.0)
+    ring = xarray.DataArray(heights, dims=("y", "x"), coords={"y": y[:, 0], "x": x[0]}).rio.write_crs("EPSG:25832")
+    plain = farlod.pack(frame, tmp_path / "plain.farlod", heights="h", report=False)
+    valley = farlod.pack(frame, tmp_path / "valley.farlod", heights="h", far_terrain=[ring], report=False)
+    values = [city.evaluate([[690005.0, 5.3e6 + 5.0]]).svf[0] for city in (plain, valley)]
+    assert values[1] == pytest.approx(values[0] * 0.8, abs=0.03)
+
+
 def test_trees_in_memory(tmp_path: Path) -> None:
     squares = [shapely.geometry.box(690000.0 + x, 5.3e6 + 20, 690010.0 + x, 5.3e6 + 30) for x in (0.0, 60.0)]
     frame = geopandas.GeoDataFrame({"h": [6.0, 6.0]}, geometry=squares, crs="EPSG:25832")

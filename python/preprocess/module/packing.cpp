@@ -33,6 +33,9 @@ void set_inputs(PackSettings& settings, const std::vector<std::string>& inputs) 
 }
 
 void set_terrain(PackSettings& settings, const std::string& terrain) { settings.terrain = terrain; }
+void set_far_terrains(PackSettings& settings, const std::vector<std::string>& far_terrains) {
+  settings.far_terrains.assign(far_terrains.begin(), far_terrains.end());
+}
 
 void set_obj_origin(PackSettings& settings, const std::array<double, 3>& origin_m) {
   settings.obj_origin = Point3d{origin_m[0], origin_m[1], origin_m[2]};
@@ -152,6 +155,7 @@ void add_pack_settings(py::module_& module) {
       .def(py::init(&settings_for), py::arg("output"))
       .def("set_inputs", &set_inputs)
       .def("set_terrain", &set_terrain)
+      .def("set_far_terrains", &set_far_terrains)
       .def("set_obj_origin", &set_obj_origin)
       .def("set_bearing", &set_bearing)
       .def("set_alignment", &set_alignment)

@@ -227,6 +227,7 @@ def pack(
     max_error: float | None = None,
     terrain: Any = None,
     terrain_offset: float = 0.0,
+    far_terrain: Any = None,
     trees: Any = None,
     heights: Heights | str | None = None,
     crs: Any = None,
@@ -268,6 +269,8 @@ def pack(
         Elevations of the ground, in metres; not with a surface model, which is all ground.
     terrain_offset : float, default 0
         Metres added to them, where they count from another datum than the buildings.
+    far_terrain : path, xarray.DataArray, or a list of them, optional
+        Elevations around the city, of any resolution: mountains beyond what `terrain` covers hide the sky.
     trees : Trees, path, GeoDataFrame, or a list of paths and GeoDataFrames, optional
         The trees of the city; anything but :class:`Trees` is an inventory.
     heights : Heights or str, optional
@@ -366,6 +369,10 @@ def pack(
         if terrain is not None:
             settings.set_terrain(saved_model(terrain, folder, "terrain", crs=settings.crs).path)
         settings.terrain_offset_m = _arguments.number("terrain_offset", terrain_offset)
+        if far_terrain is not None:
+            rasters = far_terrain if isinstance(far_terrain, (list, tuple)) else [far_terrain]
+            saved_far = [saved_model(raster, folder, f"far_terrain_{n}", crs=settings.crs) for n, raster in enumerate(rasters)]
+            settings.set_far_terrains([raster.path for raster in saved_far])
         if trees is not None:
             trees = trees if isinstance(trees, Trees) else Trees(inventory=trees)
             settings.trees = _trees(trees, module, folder, settings.crs)
