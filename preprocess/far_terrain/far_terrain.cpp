@@ -83,7 +83,7 @@ class Coverage {
     lattice_.column = lattice_.row = lattice_.step / 2;
     lattice_.nodes = most;
     height_m_.resize(std::size_t{most} * most);
-    raster.read(lattice_, height_m_);
+    (void)raster.read(lattice_, height_m_);
   }
 
   /// Empties the heights of nodes that lie where the raster has some.
@@ -120,14 +120,19 @@ class FarTerrainMaker {
     raster_ = &raster;
     offset_m_ = offset_m;
     earlier_ = earlier;
-    border_steps_m_.clear();
+    found_ = {};
     const auto longest = static_cast<std::uint64_t>(std::max(raster.columns(), raster.rows()));
     const auto step = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::uint64_t>(1, (longest + side - 1) / side)));
     return visit({step / 2, step / 2, step, side + 1});
   }
 
-  /// How much higher than the city's ground the raster is that was added last, where the grid ends.
-  [[nodiscard]] const std::vector<double>& border_steps_m() const { return border_steps_m_; }
+  /// What was found out about the raster that was added last.
+  struct Found {
+    bool is_around = false;              ///< a pixel of it is within reach
+    std::vector<double> border_steps_m;  ///< how much higher it is than the city's ground, where the grid ends
+    std::optional<double> stand_in;      ///< an undeclared number for no data
+  };
+  [[nodiscard]] const Found& found() const { return found_; }
 
   [[nodiscard]] FarTerrain take() {
     FarTerrain far_terrain{vertices_.vertices(), std::move(triangles_), {}};
@@ -154,7 +159,9 @@ class FarTerrainMaker {
     const PlanOfSquare plan(*raster_, l, city_.grid);
     if (plan.box().empty()) return true;
     const double nearest_m = std::max(farlod::distance_m(plan.box(), rectangle_), settings_.nearest_m);
-    if (nearest_m > settings_.farthest_m || covers(rectangle_, plan.box())) return true;
+    if (nearest_m > settings_.farthest_m) return true;
+    found_.is_around = true;
+    if (covers(rectangle_, plan.box())) return true;
     if (l.step == 1 || plan.widest_pixel_m() * l.step <= settings_.tolerance * nearest_m) return mesh(l, plan);
     const std::int64_t half = std::int64_t{l.step} * side / 2, shift = l.step / 2;
     for (const std::int64_t row : {l.row, l.row + half})
@@ -167,7 +174,7 @@ class FarTerrainMaker {
 
   bool mesh(const PixelLattice& l, const PlanOfSquare& plan) {
     std::vector<float> height_m(std::size_t{side + 1} * (side + 1)), tolerance_m;
-    raster_->read(l, height_m);
+    if (const auto stand_in = raster_->read(l, height_m)) found_.stand_in = stand_in;
     std::vector<Point2d> places_city;
     // Well within the grid the city has its own ground
     const double pixel_m = 2.0 * plan.widest_pixel_m() * l.step;
@@ -196,7 +203,7 @@ class FarTerrainMaker {
                               std::clamp(p.y, rectangle_.low.y, rectangle_.high.y)};
       const double apart_m = norm(p - on_border);
       if (std::isnan(height_m[n]) || apart_m == 0.0 || apart_m > pixel_m) continue;
-      border_steps_m_.push_back(static_cast<double>(height_m[n]) + offset_m_ - city_.ground_m(on_border));
+      found_.border_steps_m.push_back(static_cast<double>(height_m[n]) + offset_m_ - city_.ground_m(on_border));
     }
   }
 
@@ -266,7 +273,7 @@ class FarTerrainMaker {
   const HeightSamples* raster_ = nullptr;
   double offset_m_ = 0.0;
   std::span<const Coverage> earlier_;
-  std::vector<double> border_steps_m_;
+  Found found_;
   SharedVertices vertices_;
   std::vector<Triangle> triangles_;
 };
@@ -279,16 +286,27 @@ std::string metres(double length_m) {
   return std::move(text).str();
 }
 
-void require_same_level(const FarTerrainSource& source, const std::vector<double>& steps_m, const CityGround& city,
-                        Report& report) {
-  const auto step = plausibility::border_step(steps_m);
-  if (source.is_ground || !step) return;
+/// Throws InputError where it cannot be true, and reports what it hardly can be. Of the city's own ground all was told when that
+/// was read.
+void judge(const FarTerrainSource& source, const FarTerrainMaker::Found& found, const CityGround& city, Report& report) {
+  if (source.is_ground) return;
+  const std::string file = source.file.path.string();
+  if (!found.is_around) throw InputError(file + ": lies more than 200 km away from the city: check its CRS.");
+  const Point2d origin = city.georeference.origin_m;
+  const Point3d middle{origin.x, origin.y, 0.0};
+  if (found.stand_in) {
+    std::ostringstream text;
+    text << *found.stand_in << " is no height here, and counts as no data; gdal_edit.py -a_nodata " << *found.stand_in
+         << " declares it";
+    report.add({ProblemCode::undeclared_no_data, file, "band 1", std::move(text).str(), middle});
+  }
+  const auto step = plausibility::border_step(found.border_steps_m);
+  if (!step) return;
   const std::string what = "where the grid ends, it is " + metres(step->median_m) +
                            " the ground of the city: their heights count from different levels, or the city has none; give the "
                            "ground with --terrain, or bring both into one vertical datum";
-  if (step->is_everywhere) throw InputError(source.file.path.string() + ": " + what + ".");
-  const Point2d middle = city.georeference.origin_m;
-  report.add({ProblemCode::another_datum, source.file.path.string(), "the whole file", what, Point3d{middle.x, middle.y, 0.0}});
+  if (step->is_everywhere) throw InputError(file + ": " + what + ".");
+  report.add({ProblemCode::another_datum, file, "the whole file", what, middle});
 }
 
 /// The rasters around a city, and where they have heights.
@@ -311,7 +329,7 @@ std::optional<FarTerrain> far_terrain_within(const Surroundings& around, const C
   Report found;
   for (std::size_t n = 0; n < around.rasters.size(); ++n) {
     if (!maker.add(around.rasters[n], around.sources[n].offset_m, std::span(around.coverages).subspan(0, n))) return std::nullopt;
-    require_same_level(around.sources[n], maker.border_steps_m(), city, found);
+    judge(around.sources[n], maker.found(), city, found);
   }
   for (const Problem& problem : found.problems()) report.add(problem);
   return maker.take();

@@ -25,6 +25,9 @@ struct FarTerrainSettings {
   std::size_t most_triangles = 400'000;  ///< with more, the tolerance is doubled
 };
 
+/// What making one with the most triangles takes, edges included, besides what GDAL keeps of the file.
+inline constexpr double most_mib = 160.0;
+
 /// What is known of the ground around a city before its far terrain is made.
 struct CityGround {
   const Georeference& georeference;
@@ -54,8 +57,9 @@ struct FarTerrainSource {
 ///   that
 ///       by a share that grows with the distance, so that the ground has no step at the border
 ///   (5) a raster that is not the ground of the city, and stands above or below it along the border of the grid (border_step), is
-///       reported as of another datum
-/// Throws InputError when a file cannot be read, or when (5) is so all around; Cancelled. `notes` are for the user.
+///       reported as of another datum, and one with an undeclared number for no data as such
+/// Throws InputError when a file cannot be read, when it is nowhere near, or when (5) is so all around; Cancelled. `notes` are
+/// for the user.
 [[nodiscard]] FarTerrain far_terrain_around(std::span<const FarTerrainSource> sources, const std::string& fallback_crs,
                                             const CityGround& city, const FarTerrainSettings& settings, Report& report,
                                             std::vector<std::string>& notes, const std::stop_token& stop = {});

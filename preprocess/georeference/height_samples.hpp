@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -32,8 +33,9 @@ class HeightSamples {
 
   [[nodiscard]] std::int64_t columns() const;
   [[nodiscard]] std::int64_t rows() const;
-  /// Metres; NaN where the raster has none, and beyond its edges. Row by row. Throws InputError when the file is cut short.
-  void read(const PixelLattice& lattice, std::span<float> height_m) const;
+  /// Metres; NaN where the raster has none, and beyond its edges. Row by row. Returns a number that stands for no data though the
+  /// raster does not declare it, if there is one. Throws InputError when the file is cut short.
+  std::optional<double> read(const PixelLattice& lattice, std::span<float> height_m) const;
   /// Moves points from the frame of pixels (x: column, y: row; whole numbers are centres) to the city frame. Heights stay. What
   /// has no place there becomes infinite.
   void move_to_city(std::span<Point3d> points) const;

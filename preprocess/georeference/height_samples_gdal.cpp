@@ -6,6 +6,7 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -89,20 +90,27 @@ HeightSamples::~HeightSamples() = default;
 std::int64_t HeightSamples::columns() const { return impl_->dataset->GetRasterXSize(); }
 std::int64_t HeightSamples::rows() const { return impl_->dataset->GetRasterYSize(); }
 
-void HeightSamples::read(const PixelLattice& l, std::span<float> height_m) const {
+std::optional<double> HeightSamples::read(const PixelLattice& l, std::span<float> height_m) const {
   const GdalErrors quiet;
   std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());
   const int first = static_cast<int>(l.step / 2), columns = nodes_within(l.column, l, this->columns()),
             rows = nodes_within(l.row, l, this->rows());
-  if (columns == 0 || rows == 0) return;
+  if (columns == 0 || rows == 0) return std::nullopt;
   std::vector<float> numbers(height_m.size()), mask(height_m.size());
   if (!read_square(impl_->band(), l, first, columns, rows, numbers, false) ||
       !read_square(impl_->band(), l, first, columns, rows, mask, true))
     refuse_raster(impl_->path, "cannot be read to its end");
+  std::optional<double> stand_in;
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
-    for (std::size_t n = row * l.nodes; n < row * l.nodes + static_cast<std::size_t>(columns); ++n)
-      if (mask[n] != 0.0F && may_be_elevation(impl_->scale * numbers[n] + impl_->offset))
-        height_m[n] = static_cast<float>(impl_->scale * numbers[n] + impl_->offset);
+    for (std::size_t n = row * l.nodes; n < row * l.nodes + static_cast<std::size_t>(columns); ++n) {
+      if (mask[n] == 0.0F || !std::isfinite(numbers[n])) continue;
+      const double height = impl_->scale * numbers[n] + impl_->offset;
+      if (may_be_elevation(height))
+        height_m[n] = static_cast<float>(height);
+      else
+        stand_in = numbers[n];
+    }
+  return stand_in;
 }
 
 void HeightSamples::move_to_city(std::span<Point3d> points) const {

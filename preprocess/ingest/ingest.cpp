@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -201,6 +202,26 @@ SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report&
   return city;
 }
 
+namespace {
+
+/// Parts of buildings in one file stand for the outlines that another one has of them, as Overture's two types do.
+void drop_outlines_with_parts(std::vector<SourceCity>& cities) {
+  std::set<std::string> owners;
+  for (SourceCity& city : cities) owners.insert(city.owners_of_parts.begin(), city.owners_of_parts.end());
+  if (owners.empty()) return;
+  for (SourceCity& city : cities) {
+    std::vector<bool> is_dropped(city.city.facets().size());
+    for (const Building& b : city.city.buildings()) {
+      if (!owners.contains(b.id)) continue;
+      ++city.skipped["outlines of buildings whose parts are there"];
+      std::fill_n(is_dropped.begin() + static_cast<std::ptrdiff_t>(b.first_facet), b.facet_count, true);
+    }
+    city.city.drop_facets(is_dropped);
+  }
+}
+
+}  // namespace
+
 std::vector<SourceCity> ingest_all(std::span<const InputFile> found, const IngestSettings& settings, Report& report,
                                    const std::stop_token& stop) {
   std::vector<InputFile> files(found.begin(), found.end());
@@ -217,6 +238,7 @@ std::vector<SourceCity> ingest_all(std::span<const InputFile> found, const Inges
   if (cities.empty() && !files.empty())
     throw InputError("none of the " + std::to_string(files.size()) + " files can be used. The first problem: " +
                      report.problems()[known].source + ": " + report.problems()[known].detail);
+  drop_outlines_with_parts(cities);
   return cities;
 }
 

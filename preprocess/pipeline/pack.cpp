@@ -178,6 +178,7 @@ class Packing {
     const FarMapKind kind = settings_.far_map.kind;
     const CanopyLoad canopy = canopy_load_of(trees);
     record_.memory = memory_of_pack(model, ground_points, ground.grid, kind, canopy);
+    if (!settings_.far_terrains.empty()) record_.memory.always_mib += far_terrain::most_mib;
     record_.result.estimate =
         estimate_pack(record_.memory, model, ground_points, ground.grid, kind, canopy, threads, record_.plan.far_maps);
     expect_memory();

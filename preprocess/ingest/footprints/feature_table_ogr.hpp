@@ -38,6 +38,10 @@ class FeatureTable {
     [[nodiscard]] FieldValue value(std::size_t field) const;
     [[nodiscard]] std::optional<std::string> tag(std::string_view name) const;
     [[nodiscard]] FeatureRole role() const;
+    /// Of a part, the id of its building, where the table tells it.
+    [[nodiscard]] std::optional<std::string> owner() const {
+      return role() == FeatureRole::part ? tag("building_id") : std::nullopt;
+    }
 
    private:
     const FeatureTable& table_;

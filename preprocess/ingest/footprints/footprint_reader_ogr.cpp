@@ -22,6 +22,7 @@
 #include "ingest/files/file_format.hpp"
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
+#include "ingest/footprints/layer_choice_ogr.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "plausibility/elevations_as_heights.hpp"
 
@@ -33,12 +34,6 @@ constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",
 bool is_set(const OGRFeature& feature, int field) { return field >= 0 && feature.IsFieldSetAndNotNull(field); }
 
 bool is_length(const FieldValue& value) { return value.number || (value.is_set && length_m_from(value.text)); }
-
-bool holds_areas(OGRLayer& layer) {
-  const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
-  return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbSurface) != 0 ||
-         OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
-}
 
 /// The names of the fields whose values are lengths, for a message.
 std::string numeric_fields(OGRLayer& layer, const FeatureTable& table) {
@@ -153,6 +148,7 @@ class FootprintLayer {
   /// Whether the features are bodies in space, which are read as they are, and not footprints.
   [[nodiscard]] bool holds_bodies() const { return holds_bodies_; }
   [[nodiscard]] const SkippedFeatures& skipped() const { return skipped_; }
+  [[nodiscard]] const std::vector<std::string>& owners_of_parts() const { return owners_of_parts_; }
 
  private:
   int index_of(const char* name) const { return layer_.GetLayerDefn()->GetFieldIndex(name); }
@@ -256,6 +252,7 @@ class FootprintLayer {
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
+    if (const auto owner = row.owner()) owners_of_parts_.push_back(*owner);
     if (extent.height_field) keep_said(*extent.height_field, extent, polygons.front(), outline_m);
     builder_.begin_building(id, extent.height_reference, extent.foot);
     for (std::size_t part = 0; part < polygons.size(); ++part)
@@ -318,37 +315,8 @@ class FootprintLayer {
   bool holds_bodies_ = false;
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
   std::map<std::size_t, std::vector<plausibility::SaidHeight>> said_;  ///< by field
+  std::vector<std::string> owners_of_parts_;
 };
-
-/// The names of the layers that hold areas, but for one.
-std::string other_layers(GDALDataset& dataset, const OGRLayer* chosen) {
-  std::string names;
-  for (OGRLayer* layer : dataset.GetLayers())
-    if (layer != chosen && holds_areas(*layer)) names.append(names.empty() ? "" : ", ").append(layer->GetName());
-  return names;
-}
-
-OGRLayer* named_layer(GDALDataset& dataset, const std::string& file, const std::string& name) {
-  OGRLayer* const layer = dataset.GetLayerByName(name.c_str());
-  if (layer == nullptr)
-    throw InputError(file + " has no layer \"" + name + "\": give one of " + other_layers(dataset, nullptr) + " as --layer.");
-  if (!holds_areas(*layer)) throw InputError(file + ": the layer " + name + " holds no areas, which footprints are.");
-  return layer;
-}
-
-/// The layer that the settings name; else the first one of areas with the height field that they name; else the first one of
-/// areas.
-OGRLayer* choose_layer(GDALDataset& dataset, const std::string& file, const FootprintSettings& settings) {
-  if (settings.layer) return named_layer(dataset, file, *settings.layer);
-  OGRLayer* first = nullptr;
-  for (OGRLayer* layer : dataset.GetLayers()) {
-    if (!holds_areas(*layer)) continue;
-    const bool has_field = !settings.height_field || layer->GetLayerDefn()->GetFieldIndex(settings.height_field->c_str()) >= 0;
-    if (has_field) return layer;
-    if (first == nullptr) first = layer;
-  }
-  return first;
-}
 
 bool is_openstreetmap(GDALDataset& dataset) { return EQUAL(dataset.GetDriverName(), "OSM"); }
 
@@ -394,7 +362,8 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
           .crs = {wkt_of(layer->GetSpatialRef()), true, !footprints.holds_bodies()},
           .city = builder.take_city(),
           .skipped = footprints.skipped(),
-          .notes = footprints.notes(settings.floor_height_m)};
+          .notes = footprints.notes(settings.floor_height_m),
+          .owners_of_parts = footprints.owners_of_parts()};
 }
 
 }  // namespace farlod::ingest

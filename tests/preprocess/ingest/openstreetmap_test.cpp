@@ -111,6 +111,25 @@ TEST(OpenStreetMap, TablesOfOthersMayHaveAFieldOfThatName) {
   EXPECT_EQ(r.city().buildings().size(), 2u);
 }
 
+TEST(Overture, PartsInAnotherFileStandForTheirOutlines) {
+  const auto write = [](const char* name, const std::vector<std::string>& features) {
+    return write_file(name, collection(features));
+  };
+  const auto outlines =
+      write("building.geojson", {feature(R"("id":"a","has_parts":true,"height":60)", "Polygon", square_at(0, 0)),
+                                 feature(R"("id":"b","has_parts":false,"height":9)", "Polygon", square_at(20, 0))});
+  const auto parts = write("building_part.geojson",
+                           {feature(R"("id":"p","building_id":"a","height":12)", "Polygon", square_at(0, 0)),
+                            feature(R"("id":"q","building_id":"a","height":60,"min_height":12)", "Polygon", square_at(2, 2, 3))});
+  Report report;
+  const std::vector<SourceCity> cities = ingest_all(std::vector<InputFile>{outlines, parts}, {}, report);
+  ASSERT_EQ(cities.size(), 2U);
+  ASSERT_EQ(cities[0].city.buildings().size(), 1U);
+  EXPECT_EQ(cities[0].city.buildings()[0].id, "b");
+  EXPECT_THAT(cities[0].skipped, ElementsAre(Pair("outlines of buildings whose parts are there", 1U)));
+  EXPECT_EQ(cities[1].city.buildings().size(), 2U);
+}
+
 TEST(FootprintTable, NumbersThatAreNoHeightGiveWayToStoreysAndTheDefault) {
   const std::vector<std::string> features{feature(R"("id":"a","height":-1,"levels":2)", "Polygon", square_at(0, 0)),
                                           feature(R"("id":"b","height":-9999,"levels":null)", "Polygon", square_at(20, 0)),
