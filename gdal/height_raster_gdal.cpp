@@ -31,9 +31,10 @@ void refuse_raster(const std::filesystem::path& file, const std::string& what) {
   throw InputError(file.string() + ": " + what + (reason.empty() ? "" : " (" + reason + ")"));
 }
 
-GDALDatasetUniquePtr open_height_raster(GdalReach reach, const std::filesystem::path& file, const std::string& what_it_is_not) {
+GDALDatasetUniquePtr open_height_raster(GdalReach reach, const std::filesystem::path& file, const std::string& what_it_is_not,
+                                        const RasterChoice& choice) {
   CPLErrorReset();
-  GDALDatasetUniquePtr dataset = open_within(reach, file, GDAL_OF_RASTER);
+  GDALDatasetUniquePtr dataset = chosen_raster(open_within(reach, file, GDAL_OF_RASTER), file, choice);
   if (!dataset || dataset->GetRasterCount() < 1) refuse_raster(file, what_it_is_not);
   return dataset;
 }

@@ -12,6 +12,7 @@
 
 #include "farlod/box.hpp"
 #include "gdal/local_data_gdal.hpp"
+#include "gdal/raster_layers_gdal.hpp"
 
 // Private to the wrappers of GDAL: it names its classes.
 
@@ -23,9 +24,10 @@ using GeoTransform = std::array<double, 6>;
 /// Throws InputError: the file, what is wrong with it, and what GDAL said last.
 [[noreturn]] void refuse_raster(const std::filesystem::path& file, const std::string& what);
 
-/// Opens a raster that has a band. Throws InputError, which says `what_it_is_not` of the file.
+/// Opens a raster that has a band; of a file of several, the one that is chosen. Throws InputError, which says `what_it_is_not`
+/// of the file, or names the rasters in it.
 [[nodiscard]] GDALDatasetUniquePtr open_height_raster(GdalReach reach, const std::filesystem::path& file,
-                                                      const std::string& what_it_is_not);
+                                                      const std::string& what_it_is_not, const RasterChoice& choice = {});
 
 /// Throws InputError where the raster has no place on the map.
 [[nodiscard]] GeoTransform geo_transform_of(GDALDataset& dataset, const std::filesystem::path& file);

@@ -69,7 +69,7 @@ struct FootprintSettings {
   std::optional<std::string> roof_field = {};     ///< elevation of the roof
   std::optional<double> default_height_m = {};    ///< 0.01 to 1,000: for footprints without any height
   std::vector<double> unknown_heights = {};       ///< numbers of the table that mean that a height is not known
-  std::optional<std::string> layer = {};          ///< of a file of several: the one to read
+  std::optional<std::string> layer = {};          ///< of a file of several, features or rasters: the one to read
   std::optional<std::string> encoding = {};       ///< of the names and texts of a Shapefile, as iconv names it
 };
 

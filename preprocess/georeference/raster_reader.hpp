@@ -22,6 +22,8 @@ struct TerrainFile {
 
   std::filesystem::path path;
   bool is_named = true;
+  /// Of a file of several rasters: the name of the one to read. A file of one may have another one, unless it is the city.
+  std::optional<std::string> layer = {};
 };
 
 /// The place of a raster of heights, by its own metadata.
@@ -53,6 +55,7 @@ struct TerrainExtent {
 struct CanopyFiles {
   std::filesystem::path tops;
   std::optional<std::filesystem::path> trunks;
+  std::optional<std::string> layer = {};  ///< of a file of several rasters
 };
 
 /// Throws InputError when one of the files is no raster that can be opened, or has no place on the map: told before the long

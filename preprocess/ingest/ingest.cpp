@@ -21,6 +21,7 @@
 #include "ingest/mesh/mesh_placement.hpp"
 #include "ingest/mesh/mesh_scanners.hpp"
 #include "ingest/obj/obj_scanner.hpp"
+#include "ingest/palm/palm_driver_reader.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -118,6 +119,8 @@ SourceCity read_as(FileFormat format, const InputFile& file, const IngestSetting
       return ingest_mesh(scan_ply(file), file, settings, report, stop);
     case FileFormat::glb:
       return ingest_mesh(scan_glb(file), file, settings, report, stop);
+    case FileFormat::palm_driver:
+      return read_palm_driver(file, report);
     case FileFormat::archive:
       throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
     case FileFormat::raster:

@@ -192,13 +192,16 @@ class CityReading {
 }  // namespace
 
 CityFiles find_city_files(const StageSettings& settings, Report& report) {
+  const std::optional<std::string>& layer = settings.ingest.footprints.layer;
   CityFiles city{{}, {}, settings.terrain, settings.terrain, {}};
+  if (city.terrain) city.terrain->layer = layer;
   if (settings.inputs.empty()) return city;
-  ingest::FoundInputs found = ingest::find_input_files(settings.inputs, report);
+  ingest::FoundInputs found = ingest::find_input_files(settings.inputs, report, layer);
   if (!found.surface_models.empty()) {
     require_one_raster(found.surface_models, settings.terrain);
     const ingest::InputFile& model = found.surface_models.front();
     city.terrain = georeference::TerrainFile(model.path, model.is_named);
+    city.terrain->layer = layer;
     city.terrain_on_disk = model.on_disk;
   }
   for (const ingest::InputFile& file : found.files) city.on_disk.push_back(file.on_disk);
@@ -256,9 +259,9 @@ void append(ReadTrees& read, SourceTrees source) {
     read.trees.trees.append({source.trees.begin(), source.trees.end()});
 }
 
-std::optional<georeference::CanopyFiles> canopy_files(const TreeSettings& settings) {
-  if (!settings.canopy) return std::nullopt;
-  return georeference::CanopyFiles{*settings.canopy, settings.trunks};
+std::optional<georeference::CanopyFiles> canopy_files(const StageSettings& settings) {
+  if (!settings.trees.canopy) return std::nullopt;
+  return georeference::CanopyFiles{*settings.trees.canopy, settings.trees.trunks, settings.ingest.footprints.layer};
 }
 
 void require_files_exist(const TreeSettings& settings) {
@@ -272,12 +275,13 @@ void require_files_exist(const TreeSettings& settings) {
 
 }  // namespace
 
-std::vector<SourceTrees> read_inventories(const TreeSettings& settings, Report& report, const std::stop_token& stop) {
+std::vector<SourceTrees> read_inventories(const StageSettings& stages, Report& report, const std::stop_token& stop) {
+  const TreeSettings& settings = stages.trees;
   require_files_exist(settings);
   if (settings.files.size() > std::numeric_limits<decltype(Tree::source)>::max())
     throw InputError("There are " + std::to_string(settings.files.size()) +
                      " inventories of trees: put them together into fewer.");
-  if (const auto canopy = canopy_files(settings)) georeference::require_canopy(*canopy);
+  if (const auto canopy = canopy_files(stages)) georeference::require_canopy(*canopy);
   std::vector<SourceTrees> inventories;
   Usable usable(settings.files.size(), report);
   for (const std::filesystem::path& file : settings.files)
@@ -299,7 +303,7 @@ ReadTrees bring_to_city(std::vector<SourceTrees> inventories, const StageSetting
     });
   }
   usable.require_one();
-  if (const auto files = canopy_files(settings.trees)) {
+  if (const auto files = canopy_files(settings)) {
     auto [canopy, notes] = georeference::read_canopy(*files, fallback_crs, georeference, outline_city(grid), stop);
     read.trees.canopy = std::move(canopy);
     read.notes.insert(read.notes.end(), notes.begin(), notes.end());

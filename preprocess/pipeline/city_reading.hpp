@@ -69,8 +69,7 @@ struct ReadTrees {
 /// Reads inventories, and opens rasters of canopies: before the city is read, so that a wrong file is told first. If there are
 /// several inventories, one that is empty or cannot be used as a whole is reported and left out. Throws InputError for a file
 /// that does not exist, when no inventory is left, or when a raster cannot be opened; Cancelled.
-[[nodiscard]] std::vector<SourceTrees> read_inventories(const TreeSettings& settings, Report& report,
-                                                        const std::stop_token& stop);
+[[nodiscard]] std::vector<SourceTrees> read_inventories(const StageSettings& stages, Report& report, const std::stop_token& stop);
 
 /// Brings them to the city, and reads the raster of canopies where the grid is. Inventories without a usable CRS are left out as
 /// before. Throws InputError when none is left, or a raster cannot be used; Cancelled.

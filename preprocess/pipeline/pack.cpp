@@ -128,7 +128,7 @@ class Packing {
     const RunStage run_stage = [this](const std::string& stage, const std::function<void()>& work) { timed(stage, work); };
     std::vector<SourceTrees> inventories;
     const bool has_trees = settings_.trees.any();
-    if (has_trees) timed("trees", [&] { inventories = read_inventories(settings_.trees, report_, run_.stop); });
+    if (has_trees) timed("trees", [&] { inventories = read_inventories(settings_, report_, run_.stop); });
     ReadCity city = read_city(std::move(files), settings_, report_, run_.stop, run_stage);
     require_unchanged(origin_);
     PackedCity& result = record_.result;

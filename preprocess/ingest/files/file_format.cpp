@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "ingest/palm/palm_driver_reader.hpp"
+
 namespace farlod::ingest {
 namespace {
 
@@ -226,8 +228,8 @@ bool is_archive(std::string_view bytes) {
 /// Enough to reach the root of an XML file, which follows comments and licences and has a long list of namespaces.
 constexpr std::size_t beginning_bytes = std::size_t{1} << 16;
 
-FileFormat format_by_map_kind(const InputFile& file) {
-  const MapKind kind = map_kind_of(file);
+FileFormat format_by_map_kind(const InputFile& file, const std::optional<std::string>& layer) {
+  const MapKind kind = map_kind_of(file, layer);
   if (kind == MapKind::only_by_name) return FileFormat::only_by_name;
   return kind == MapKind::features ? FileFormat::features : kind == MapKind::raster ? FileFormat::raster : FileFormat::unknown;
 }
@@ -244,19 +246,22 @@ FormatAdvice advice_of(FileFormat format) {
 std::string_view name_of(FileFormat format) {
   if (const InputFormat* known = row_of(format)) return known->name;
   if (format == FileFormat::raster) return "a raster";
+  if (format == FileFormat::palm_driver) return "a static driver of PALM";
   if (format == FileFormat::archive) return "an archive";
   return format == FileFormat::only_by_name ? "of a format that may name other files" : "of no format that is known";
 }
 
-FileFormat format_by_content(const InputFile& file) {
+FileFormat format_by_content(const InputFile& file, const std::optional<std::string>& layer) {
   std::error_code error;
-  if (!file.is_packed() && std::filesystem::is_directory(file.path, error)) return format_by_map_kind(file);
+  if (!file.is_packed() && std::filesystem::is_directory(file.path, error)) return format_by_map_kind(file, layer);
   const std::string bytes = read_beginning(file, beginning_bytes), text = plain_beginning(bytes);
   if (is_archive(bytes) && !is_map_in_zip(file.unpacked_name())) return FileFormat::archive;
   const FileBeginning beginning{file, bytes, text, bytes.size() < beginning_bytes};
   for (const InputFormat& format : formats)
     if (format.is_this != nullptr && format.is_this(beginning)) return format.format;
-  return file.pipe ? FileFormat::unknown : format_by_map_kind(file);
+  // A pipe cannot be read before it is read
+  if (!file.pipe && !layer && is_palm_driver(file)) return FileFormat::palm_driver;
+  return file.pipe ? FileFormat::unknown : format_by_map_kind(file, layer);
 }
 
 FileFormat format_by_name(const InputFile& file) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,9 +41,9 @@ enum class MapKind {
   only_by_name  ///< its format may name other files, and the user did not name this one
 };
 
-/// By its content, and for some formats by its name. A file with features and a raster counts as features. A raster without a
-/// place on the map, such as a photograph, is `unknown`.
-[[nodiscard]] MapKind map_kind_of(const InputFile& file);
+/// By its content, and for some formats by its name. A file with features and a raster (GeoPackage, netCDF) counts as features,
+/// unless `layer` is the name of a raster in it. A raster without a place on the map, such as a photograph, is `unknown`.
+[[nodiscard]] MapKind map_kind_of(const InputFile& file, const std::optional<std::string>& layer = {});
 
 /// Whether bytes begin like a zip archive, or like a gzip file.
 [[nodiscard]] bool is_zip(std::string_view bytes);
@@ -58,6 +59,7 @@ enum class FileFormat {
   glb,
   features,      ///< a vector format in which GDAL may find footprints
   raster,        ///< a surface model
+  palm_driver,   ///< a static driver of PALM
   only_by_name,  ///< a format whose files may name others, of a file that the user did not name
   archive,       ///< of a kind that is not opened, or inside another archive
   unknown,       ///< no format of a city
@@ -115,8 +117,9 @@ template <class Condition>
 [[nodiscard]] std::string_view name_of(FileFormat format);
 
 /// The format of a file by its content alone, also behind a byte order mark, blank lines and comments, and in UTF-16. The format
-/// of a file that is too damaged to be recognized is `unknown`. Throws InputError when the file cannot be read.
-[[nodiscard]] FileFormat format_by_content(const InputFile& file);
+/// of a file that is too damaged to be recognized is `unknown`. `layer`: as for map_kind_of. Throws InputError when the file
+/// cannot be read.
+[[nodiscard]] FileFormat format_by_content(const InputFile& file, const std::optional<std::string>& layer = {});
 
 /// The format that the name of a file suggests. The reader of that format reports what is wrong with an unknown content.
 [[nodiscard]] FileFormat format_by_name(const InputFile& file);

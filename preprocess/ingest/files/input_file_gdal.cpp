@@ -3,6 +3,7 @@
 #include <cpl_conv.h>
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
+#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
+#include "gdal/raster_layers_gdal.hpp"
 #include "ingest/files/file_format.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/files/input_search.hpp"
@@ -21,18 +23,36 @@ namespace {
 
 GdalReach reach_of(const InputFile& file) { return file.is_named ? GdalReach::local_files : GdalReach::own_data; }
 
+/// Has a raster of several, or one that has a place.
 bool lies_on_the_map(const InputFile& file) {
   const GDALDatasetUniquePtr raster = open_within(reach_of(file), file.path, GDAL_OF_RASTER);
   std::array<double, 6> transform{};
-  return raster && raster->GetRasterCount() > 0 && raster->GetGeoTransform(transform.data()) == CE_None;
+  if (raster && raster->GetRasterCount() == 0) return !raster_layers(*raster).empty();
+  return raster && raster->GetGeoTransform(transform.data()) == CE_None;
+}
+
+bool has_raster(const InputFile& file, const std::string& name) {
+  const GDALDatasetUniquePtr raster = open_within(reach_of(file), file.path, GDAL_OF_RASTER);
+  return raster && has_raster_layer(*raster, name);
+}
+
+/// Some formats hold features and rasters. Tables without geometries, such as the variables of one dimension in netCDF, are no
+/// features of a city.
+bool holds_features(const InputFile& file, const std::optional<std::string>& layer) {
+  if (!is_known_within(reach_of(file), file.path, GDAL_OF_RASTER)) return true;
+  const GDALDatasetUniquePtr dataset = open_within(reach_of(file), file.path, GDAL_OF_VECTOR);
+  if (!dataset || (layer && dataset->GetLayerByName(layer->c_str()) == nullptr && has_raster(file, *layer))) return false;
+  for (OGRLayer* one : dataset->GetLayers())
+    if (one->GetGeomType() != wkbNone) return true;
+  return false;
 }
 
 }  // namespace
 
-MapKind map_kind_of(const InputFile& file) {
+MapKind map_kind_of(const InputFile& file, const std::optional<std::string>& layer) {
   const GdalErrors quiet;
   const GdalReach reach = reach_of(file);
-  if (is_known_within(reach, file.path, GDAL_OF_VECTOR)) return MapKind::features;
+  if (is_known_within(reach, file.path, GDAL_OF_VECTOR) && holds_features(file, layer)) return MapKind::features;
   if (is_known_within(reach, file.path, GDAL_OF_RASTER)) return lies_on_the_map(file) ? MapKind::raster : MapKind::unknown;
   const bool is_for_a_name =
       !file.is_named && is_known_within(GdalReach::local_files, file.path, GDAL_OF_RASTER | GDAL_OF_VECTOR);

@@ -174,7 +174,7 @@ InputFile readable_pipe(const fs::path& path) {
 
 class InputSearch {
  public:
-  explicit InputSearch(Report& report) : report_(report) {}
+  InputSearch(Report& report, const std::optional<std::string>& layer) : report_(report), layer_(layer) {}
 
   FoundInputs search(std::span<const fs::path> inputs) {
     std::error_code error;
@@ -252,8 +252,14 @@ class InputSearch {
       unusable_.emplace_back(member.name, member.name + " is locked by a password: unpack it first.");
   }
 
+  /// A GeoPackage holds features, rasters or both.
+  [[nodiscard]] bool is_city_by_name(const InputFile& file) const {
+    const std::string name = file.unpacked_name();
+    return has_city_ending(name) && (!ends_with_any(name, {".gpkg"}) || map_kind_of(file, layer_) != MapKind::raster);
+  }
+
   void take_as_named(const InputFile& file) {
-    if (!has_city_ending(file.unpacked_name()) && format_by_content(file) == FileFormat::raster)
+    if (!is_city_by_name(file) && format_by_content(file, layer_) == FileFormat::raster)
       rasters_.push_back(file);
     else
       add(file);
@@ -264,8 +270,8 @@ class InputSearch {
     if (is_companion(name)) return;
     const bool is_xml = ends_with_any(name, {".xml"}), is_json = ends_with_any(name, {".json"});
     const bool is_empty_city = (is_xml || is_json) && read_beginning(file, 1).empty();
-    if (has_city_ending(name) || is_empty_city) return add(file);
-    const FileFormat format = format_by_content(file);
+    if (is_city_by_name(file) || is_empty_city) return add(file);
+    const FileFormat format = format_by_content(file, layer_);
     const bool is_table = format == FileFormat::features, is_none = format == FileFormat::unknown;
     if (format == FileFormat::raster)
       rasters_.push_back(file);
@@ -320,6 +326,7 @@ class InputSearch {
   }
 
   Report& report_;
+  const std::optional<std::string>& layer_;
   FoundInputs found_;
   bool is_listed_ = false;                                     ///< whether the directory of the current archive could be read
   std::vector<InputFile> rasters_, only_by_name_;              ///< of the current input
@@ -329,6 +336,8 @@ class InputSearch {
 
 }  // namespace
 
-FoundInputs find_input_files(std::span<const fs::path> inputs, Report& report) { return InputSearch(report).search(inputs); }
+FoundInputs find_input_files(std::span<const fs::path> inputs, Report& report, const std::optional<std::string>& layer) {
+  return InputSearch(report, layer).search(inputs);
+}
 
 }  // namespace farlod::ingest

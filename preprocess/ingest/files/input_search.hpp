@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,10 +47,12 @@ struct FoundInputs {
 ///   (2) a file that is itself an input is always found; a file in a folder or archive is found if it is a city by its ending or,
 ///       where the ending does not decide, by its content
 ///   (3) textures, code lists, metadata and other companions of city files are neither found nor counted as skipped
-///   (4) a raster is found if it is itself an input, or the only usable file of a folder or archive
+///   (4) a raster is found if it is itself an input, or the only usable file of a folder or archive; a file that holds features
+///       and rasters (GeoPackage) is one where `layer` is the name of a raster in it
 /// A folder that is one data set, such as `.gdb`, is one file. Archives within archives are not opened. Throws InputError when an
 /// input does not exist, and when nothing is found. An archive or a folder that cannot be opened is reported as unusable_file if
 /// other inputs can be read.
-[[nodiscard]] FoundInputs find_input_files(std::span<const std::filesystem::path> inputs, Report& report);
+[[nodiscard]] FoundInputs find_input_files(std::span<const std::filesystem::path> inputs, Report& report,
+                                           const std::optional<std::string>& layer = {});
 
 }  // namespace farlod::ingest

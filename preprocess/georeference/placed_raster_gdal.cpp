@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "georeference/placed_raster_gdal.hpp"
+
+#include <gdal_priv.h>
+
+#include <sstream>
+
+#include "gdal/height_raster_gdal.hpp"
+#include "gdal/wkt_gdal.hpp"
+#include "georeference/input_crs.hpp"
+
+namespace farlod::georeference {
+
+Point2d PixelFrame::pixels_at(Point2d p) const {
+  const double determinant = column_step.x * row_step.y - column_step.y * row_step.x;
+  const Point2d d = p - corner;
+  return {(d.x * row_step.y - d.y * row_step.x) / determinant, (column_step.x * d.y - column_step.y * d.x) / determinant};
+}
+
+bool PixelFrame::is_made_of_squares() const {
+  // Sides that differ by less than a thousandth are meant to be equal
+  constexpr double tolerance = 1e-3;
+  const double a = norm(column_step), b = norm(row_step);
+  return std::abs(a - b) <= tolerance * a && std::abs(dot(column_step, row_step)) <= tolerance * a * b;
+}
+
+int PlacedRaster::columns() const { return dataset().GetRasterXSize(); }
+int PlacedRaster::rows() const { return dataset().GetRasterYSize(); }
+
+PixelFrame PlacedRaster::frame() const {
+  const GeoTransform t = geo_transform_of(dataset(), path);
+  return {{t[0], t[3]}, {t[1], t[4]}, {t[2], t[5]}};
+}
+
+Box2d PlacedRaster::extent() const {
+  const GeoTransform t = geo_transform_of(*file, path);
+  Box2d box;
+  for (const double column : {0.0, static_cast<double>(file->GetRasterXSize())})
+    for (const double row : {0.0, static_cast<double>(file->GetRasterYSize())})
+      box.add({t[0] + column * t[1] + row * t[2], t[3] + column * t[4] + row * t[5]});
+  return box;
+}
+
+Crs PlacedRaster::take_crs(const std::string& fallback_crs, const Crs& output) {
+  const std::string own_wkt = wkt_of(file->GetSpatialRef());
+  const bool unnamed = own_wkt.empty() && fallback_crs.empty();
+  Crs crs = unnamed ? output : crs_of_input(path.string(), own_wkt, fallback_crs).crs;
+  GDALRasterBand& band = *file->GetRasterBand(1);
+  const double unit_m = named_unit_m(band).value_or(crs.height_unit_m());
+  scale = {unit_m * band.GetScale(), unit_m * band.GetOffset()};
+  return crs;
+}
+
+void PlacedRaster::warp(const WarpWay& way, const Crs& output) {
+  warped = warped_raster(*file, way);
+  if (!warped) refuse_raster(path, "cannot be brought into " + output.name());
+}
+
+std::string length_text(double length_m) {
+  std::ostringstream text;
+  text.precision(5);
+  text << length_m;
+  return std::move(text).str();
+}
+
+}  // namespace farlod::georeference

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "farlod/box.hpp"
+#include "farlod/point.hpp"
+#include "georeference/crs.hpp"
+
+// Private to the wrappers of GDAL: it names one of its classes.
+class GDALDataset;
+
+namespace farlod {
+struct WarpWay;
+}
+
+namespace farlod::georeference {
+
+/// Half-open ranges of columns and rows.
+struct RasterWindow {
+  int column = 0, row = 0, column_end = 0, row_end = 0;
+
+  [[nodiscard]] bool is_empty() const { return column >= column_end || row >= row_end; }
+  [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(column_end - column); }
+  [[nodiscard]] std::size_t rows() const { return static_cast<std::size_t>(row_end - row); }
+};
+
+/// Converts the numbers of a band to heights in metres.
+struct HeightScale {
+  double scale = 1.0, offset = 0.0;
+
+  [[nodiscard]] float metres(double value) const { return static_cast<float>(scale * value + offset); }
+  [[nodiscard]] double number(float height_m) const { return (static_cast<double>(height_m) - offset) / scale; }
+};
+
+/// Where the pixels of a raster are. Places within it are counted in pixels from the corner of the first one.
+struct PixelFrame {
+  Point2d corner, column_step, row_step;
+
+  [[nodiscard]] Point2d place(double column, double row) const { return corner + column * column_step + row * row_step; }
+  [[nodiscard]] Point2d pixels_at(Point2d p) const;
+  [[nodiscard]] bool is_north_up() const {
+    return column_step.x > 0.0 && row_step.x == 0.0 && column_step.y == 0.0 && row_step.y < 0.0;
+  }
+  [[nodiscard]] bool is_made_of_squares() const;
+};
+
+/// A raster that is open.
+struct PlacedRaster {
+  std::filesystem::path path;
+  std::shared_ptr<GDALDataset> file, warped = {};  ///< `warped` is empty when the file is used as it is
+  HeightScale scale = {};
+  std::string note = {};  ///< what was done to it, for the user
+
+  [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : *file; }
+  [[nodiscard]] int columns() const;
+  [[nodiscard]] int rows() const;
+  [[nodiscard]] std::optional<float> height_m(double number) const {
+    const float height = scale.metres(number);
+    return std::isfinite(height) ? std::optional(height) : std::nullopt;
+  }
+  [[nodiscard]] PixelFrame frame() const;
+  /// Of the file, before anything is done to it.
+  [[nodiscard]] Box2d extent() const;
+
+  /// Finds the CRS of the file, and the scale of its heights.
+  [[nodiscard]] Crs take_crs(const std::string& fallback_crs, const Crs& output);
+  /// Pixels are computed when they are read. Throws InputError where GDAL cannot.
+  void warp(const WarpWay& way, const Crs& output);
+};
+
+/// A length as messages show it: five digits.
+[[nodiscard]] std::string length_text(double length_m);
+
+}  // namespace farlod::georeference

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/expects.hpp"
+#include "farlod/error.hpp"
+#include "gdal/gdal_errors.hpp"
+#include "gdal/height_raster_gdal.hpp"
+#include "gdal/local_data_gdal.hpp"
+#include "gdal/wkt_gdal.hpp"
+#include "georeference/crs.hpp"
+#include "georeference/input_crs.hpp"
+#include "georeference/placed_raster_gdal.hpp"
+#include "georeference/raster_reader.hpp"
+#include "georeference/resolved_source.hpp"
+#include "plausibility/stand_ins.hpp"
+
+namespace farlod::georeference {
+namespace {
+
+using plausibility::HeightsOf;
+
+GDALDatasetUniquePtr open_raster(const TerrainFile& file, bool is_city = false) {
+  return open_height_raster(
+      file.is_named ? GdalReach::local_files : GdalReach::own_data, file.path,
+      "is not a raster of heights that can be read: give a GeoTIFF, an ESRI ASCII grid or another format of GDAL; a relief "
+      "of CityGML or CityJSON goes among the inputs",
+      {file.layer, is_city});
+}
+
+/// The pixels, of `count`, whose centres lie between `low` and `high`, and one more at each end. Both are counted in pixels from
+/// the edge of the first pixel.
+std::pair<int, int> pixels_around(double low, double high, int count) {
+  const double begin = std::clamp(std::floor(low - 0.5) - 1.0, 0.0, static_cast<double>(count));
+  const double end = std::clamp(std::ceil(high - 0.5) + 2.0, 0.0, static_cast<double>(count));
+  return {static_cast<int>(begin), static_cast<int>(end)};
+}
+
+RasterWindow window_of(const PlacedRaster& raster, const std::optional<Box2d>& wanted) {
+  const int columns = raster.columns(), rows = raster.rows();
+  if (!wanted) return {0, 0, columns, rows};
+  const PixelFrame frame = raster.frame();
+  const Point2d first = frame.pixels_at({wanted->low.x, wanted->high.y}), last = frame.pixels_at({wanted->high.x, wanted->low.y});
+  const auto [column, column_end] = pixels_around(first.x, last.x, columns);
+  const auto [row, row_end] = pixels_around(first.y, last.y, rows);
+  return {column, row, column_end, row_end};
+}
+
+/// A number that stands for no data, and the first of its pixels in the CRS of the file.
+struct StandInOfFile {
+  double number = 0.0;
+  Point2d place;
+};
+
+/// `where` begins the detail.
+void report_stand_in(const PlacedRaster& raster, const Crs& own, const StandInOfFile& found, const std::string& where,
+                     Report& report) {
+  std::ostringstream text;
+  text.precision(9);
+  text << where << found.number << " is no height here, and counts as no data; gdal_edit.py -a_nodata " << found.number
+       << " declares it";
+  Problem problem{ProblemCode::undeclared_no_data, raster.path.string(), "band 1", std::move(text).str(),
+                  Point3d{found.place.x, found.place.y, 0.0}};
+  ProblemLocator(own, FileAxes{}, found.place).locate(problem);
+  report.add(std::move(problem));
+}
+
+/// Masked pixels are empty; nothing when the file is cut short.
+std::optional<TerrainRaster> read_window(const PlacedRaster& raster, const RasterWindow& w, Point2d origin) {
+  const PixelFrame frame = raster.frame();
+  TerrainRaster terrain;
+  terrain.columns = w.columns();
+  terrain.rows = w.rows();
+  terrain.step_m = {frame.column_step.x, -frame.row_step.y};
+  // The first row of a file is in the north, that of a terrain in the south
+  terrain.first = frame.place(w.column + 0.5, w.row_end - 0.5) - origin;
+  terrain.height_m.reserve(terrain.columns * terrain.rows);
+  std::vector<double> values(w.columns());
+  for (int row = w.row_end - 1; row >= w.row; --row) {
+    if (!read_pixels(*raster.dataset().GetRasterBand(1), w.column, row, values)) return std::nullopt;
+    for (const double value : values) terrain.height_m.push_back(raster.height_m(value));
+  }
+  return terrain;
+}
+
+/// What stands for no data, by a sample of the raster that is spread over all of it. Empty where the raster declares it itself.
+std::optional<StandInOfFile> sampled_stand_in(const PlacedRaster& raster, HeightsOf of) {
+  constexpr int most = 512;
+  GDALRasterBand& band = *raster.file->GetRasterBand(1);
+  int is_declared = 0;
+  (void)band.GetNoDataValue(&is_declared);
+  if (is_declared != 0) return std::nullopt;
+  const int columns = std::min(band.GetXSize(), most), rows = std::min(band.GetYSize(), most);
+  std::vector<double> numbers(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  if (band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), numbers.data(), columns, rows, GDT_Float64, 0, 0, nullptr) !=
+      CE_None)
+    return std::nullopt;
+  std::vector<std::optional<float>> heights_m;
+  for (const double number : numbers) heights_m.push_back(raster.height_m(number));
+  const auto found = plausibility::take_out_stand_ins(heights_m, of);
+  if (found.empty()) return std::nullopt;
+  const std::size_t first = found.front().first, row = first / static_cast<std::size_t>(columns),
+                    column = first % static_cast<std::size_t>(columns);
+  return StandInOfFile{numbers[found.front().first],
+                       raster.frame().place((static_cast<double>(column) + 0.5) * band.GetXSize() / columns,
+                                            (static_cast<double>(row) + 0.5) * band.GetYSize() / rows)};
+}
+
+/// North up. Stand-ins for no data must not become heights between them and their neighbours.
+PlacedRaster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output, HeightsOf of,
+                        Report& report) {
+  PlacedRaster raster{file.path, open_raster(file)};
+  const Crs crs = raster.take_crs(fallback_crs, output);
+  const PixelFrame frame = raster.frame();
+  const Point2d middle{0.5 * raster.file->GetRasterXSize(), 0.5 * raster.file->GetRasterYSize()};
+  report_place(file.path.string(), crs, frame.place(middle.x, middle.y), frame.place(middle.x + 1.0, middle.y), report);
+  if (!crs.equals(output) || !frame.is_north_up()) {
+    WarpWay way{crs.wkt(), output.wkt()};
+    if (const auto found = sampled_stand_in(raster, of)) {
+      way.no_data = found->number;
+      report_stand_in(raster, crs, *found, "", report);
+    }
+    raster.warp(way, output);
+  }
+  return raster;
+}
+
+/// Empties what is left of heights that no place has. Where the raster was resampled, all was told before.
+void require_heights(TerrainRaster& terrain, const PlacedRaster& raster, HeightsOf of, const Crs& output, Point2d origin_m,
+                     Report& report) {
+  const std::size_t all = terrain.height_m.size();
+  for (const plausibility::StandIn& found : plausibility::take_out_stand_ins(terrain.height_m, of)) {
+    if (raster.warped) continue;
+    const Point2d place = terrain.node(found.first % terrain.columns, found.first / terrain.columns) + origin_m;
+    report_stand_in(raster, output, {raster.scale.number(found.height_m), place},
+                    std::to_string(found.pixels) + " of " + std::to_string(all) + " pixels here: ", report);
+  }
+}
+
+TerrainExtent extent_of(const TerrainFile& file, bool is_city) {
+  const GdalErrors quiet;
+  const PlacedRaster raster{file.path, open_raster(file, is_city)};
+  return {wkt_of(raster.file->GetSpatialRef()), raster.extent()};
+}
+
+}  // namespace
+
+TerrainExtent read_terrain_extent(const TerrainFile& file) { return extent_of(file, false); }
+
+Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings) {
+  const TerrainExtent extent = extent_of(file, true);
+  const Crs input = crs_of_input(file.path.string(), extent.crs_wkt, settings.crs).crs;
+  const Point2d centre = 0.5 * (extent.box.low + extent.box.high);
+  const Crs output = choose_output_crs(input, centre, settings.out_crs);
+  const auto place = input.equals(output) ? centre : CrsTransformation(input, output, centre).apply(centre);
+  if (!place) throw InputError(file.path.string() + ": its centre has no place in " + output.name() + ": check its CRS");
+  return georeference_around(*place, output);
+}
+
+TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs, const Georeference& georeference,
+                           std::optional<Box2d> wanted_city, Report& report) {
+  const GdalErrors quiet;
+  const HeightsOf of = wanted_city ? HeightsOf::ground : HeightsOf::surfaces;
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  const PlacedRaster ready = make_ready(file, fallback_crs, *output, of, report);
+  if (wanted_city) *wanted_city = {wanted_city->low + georeference.origin_m, wanted_city->high + georeference.origin_m};
+  const RasterWindow window = window_of(ready, wanted_city);
+  if (window.is_empty())
+    throw InputError(
+        file.path.string() +
+        ": does not cover the city: check its CRS, which was taken to be that of --crs or the output if it says none");
+  auto terrain = read_window(ready, window, georeference.origin_m);
+  if (!terrain) refuse_raster(file.path, "cannot be read to its end");
+  require_heights(*terrain, ready, of, *output, georeference.origin_m, report);
+  return std::move(*terrain);
+}
+
+}  // namespace farlod::georeference
