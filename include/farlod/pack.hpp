@@ -102,9 +102,11 @@ struct PackSettings {
   /// Files, folders and archives; all are put together. A raster among them is a surface model. May be empty if there is a
   /// terrain.
   std::vector<std::filesystem::path> inputs;
-  std::filesystem::path output;                  ///< the folder to make
-  std::optional<std::filesystem::path> terrain;  ///< a raster of ground elevations, any that GDAL reads
-  double terrain_offset_m = 0.0;                 ///< added to them, where they count from another datum than the buildings
+  std::filesystem::path output;  ///< the folder to make
+  /// Rasters of ground elevations, any that GDAL reads, and folders of them: the tiles of one terrain. Where they overlap, later
+  /// ones lie on top, but for where they have no data.
+  std::vector<std::filesystem::path> terrain;
+  double terrain_offset_m = 0.0;  ///< added to them, where they count from another datum than the buildings
   /// More rasters of elevations, of any resolution: beyond the grid of the city, and beyond what `terrain` covers there,
   /// mountains hide the sky, sunk by the Earth's curvature. Where several have heights, the first counts.
   std::vector<std::filesystem::path> far_terrains = {};

@@ -155,7 +155,7 @@ inline constexpr std::array problem_descriptions{
     ProblemDescription{ProblemCode::undeclared_no_data, "undeclared_no_data", Effect::left_out,
                        "pixels of a raster hold a number that is no height"},
     ProblemDescription{ProblemCode::another_datum, "another_datum", Effect::kept,
-                       "a file's buildings stand above or below the ground, all by one height"},
+                       "heights of a file count from another zero than those of the others"},
     ProblemDescription{ProblemCode::beyond_terrain, "beyond_terrain", Effect::kept, "buildings lie beyond the terrain"},
     ProblemDescription{ProblemCode::no_dominant_direction, "no_dominant_direction", Effect::kept,
                        "the streets have no dominant direction"},

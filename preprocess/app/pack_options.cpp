@@ -50,8 +50,9 @@ struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "auto", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::optional<std::string> area, ground_names;
-  std::string terrain, height_field, base_field, storeys_field, roof_field, layer, encoding;
-  std::vector<std::string> trees, far_terrains;
+  std::vector<std::string> terrain, far_terrains;
+  std::string height_field, base_field, storeys_field, roof_field, layer, encoding;
+  std::vector<std::string> trees;
   std::string tree_height_field, crown_field, trunk_field, canopy, trunk;
   bool canopy_absolute = false;
   std::string shard;
@@ -121,8 +122,12 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
       ->capture_default_str()
       ->group("Input");
-  app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")
+  app.add_option("--terrain", raw.terrain,
+                 "Raster of ground elevations (any that GDAL reads), or a folder of them; may be given several times: later ones "
+                 "lie on top")
       ->type_name(file_value)
+      ->expected(1)
+      ->take_all()
       ->group("Input");
   app.add_option("--terrain-offset", o.settings.terrain_offset_m,
                  "Metres added to the terrain, where its elevations count from another datum than the buildings")
@@ -325,7 +330,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   s.output = raw.output;
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
-  if (!raw.terrain.empty()) s.terrain = raw.terrain;
+  s.terrain.assign(raw.terrain.begin(), raw.terrain.end());
   for (const std::string& file : raw.far_terrains) {
     require_name(file, "--far-terrain");
     s.far_terrains.emplace_back(file);
@@ -333,7 +338,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   resolve_trees(raw, s.trees);
   if (raw.area) s.area = area_in(*raw.area);
   if (!raw.shard.empty()) s.shard = shard_in(raw.shard);
-  if (s.inputs.empty() && !s.terrain && !s.merge) throw CLI::RequiredError("INPUT");
+  if (s.inputs.empty() && s.terrain.empty() && !s.merge) throw CLI::RequiredError("INPUT");
   if (s.neighborhood && *s.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");

@@ -169,6 +169,8 @@ struct Georeference {
   Point2d origin_m;         ///< easting and northing of the city frame's origin
   /// Meridian convergence γ at the origin: true azimuth = grid azimuth + γ.
   Angle convergence;
+  /// The first CRS among the inputs that has a vertical system, with it: all heights count in that. Empty where none has.
+  std::string heights_wkt = {};
 };
 
 /// A city in the city frame: metres, x along the output CRS's easting, y along its northing, minus the origin.
@@ -179,6 +181,7 @@ struct LocatedCity {
   std::vector<Point3d> relief_points = {};             ///< points of the ground that the files give as terrain
   std::vector<std::optional<PlacedFile>> placed = {};  ///< of the sources: empty where attributes have no places
   std::vector<FormatAdvice> advice = {};               ///< of the sources
+  std::vector<std::string> notes = {};                 ///< for the user: what was done to heights
 };
 
 /// No building is higher: the highest has 828 m.
@@ -199,6 +202,7 @@ struct TerrainRaster {
   Point2d step_m{1.0, 1.0};
   std::size_t columns = 0, rows = 0;
   std::vector<std::optional<float>> height_m;  ///< row by row from the south; empty where the raster has no data
+  std::vector<std::string> notes = {};         ///< for the user: what was done to the file
 
   [[nodiscard]] Point2d node(std::size_t column, std::size_t row) const {
     return {first.x + static_cast<double>(column) * step_m.x, first.y + static_cast<double>(row) * step_m.y};

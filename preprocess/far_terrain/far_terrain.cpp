@@ -77,14 +77,19 @@ class PlanOfSquare {
 /// Where a raster has heights, by some of its pixels.
 class Coverage {
  public:
-  explicit Coverage(const HeightSamples& raster) : raster_(raster) {
+  Coverage(const HeightSamples& raster, const Grid& grid) : raster_(raster) {
     const auto longest = static_cast<std::uint64_t>(std::max(raster.columns(), raster.rows()));
+    const auto step = static_cast<std::uint32_t>(longest / side + 1);
+    box_ = PlanOfSquare(raster, {0, 0, step, side + 1}, grid).box();
     lattice_.step = static_cast<std::uint32_t>(std::bit_ceil((longest + most - 1) / most));
     lattice_.column = lattice_.row = lattice_.step / 2;
     lattice_.nodes = most;
     height_m_.resize(std::size_t{most} * most);
     (void)raster.read(lattice_, height_m_);
   }
+
+  /// Around the raster, in the grid frame.
+  [[nodiscard]] const Box2d& box() const { return box_; }
 
   /// Empties the heights of nodes that lie where the raster has some.
   void take_out(std::span<const Point2d> places_city, std::span<float> height_m) const {
@@ -105,6 +110,7 @@ class Coverage {
   }
 
   const HeightSamples& raster_;
+  Box2d box_;
   PixelLattice lattice_;
   std::vector<float> height_m_;
 };
@@ -188,7 +194,8 @@ class FarTerrainMaker {
         if (!earlier_.empty()) places_city.push_back(city_.grid.rotation.city_from_grid(p));
       }
     compare_with_ground(l, plan, height_m);
-    for (const Coverage& coverage : earlier_) coverage.take_out(places_city, height_m);
+    for (const Coverage& coverage : earlier_)
+      if (boxes_meet(coverage.box(), plan.box())) coverage.take_out(places_city, height_m);
     add_triangles(l, height_m, triangulation_.triangulate({height_m, tolerance_m}));
     return triangles_.size() <= settings_.most_triangles;
   }
@@ -317,8 +324,10 @@ struct Surroundings {
 
   Surroundings(std::span<const FarTerrainSource> of, const std::string& fallback_crs, const CityGround& city, Report& report)
       : sources(of) {
-    for (const FarTerrainSource& source : sources) rasters.emplace_back(source.file, fallback_crs, city.georeference, report);
-    for (std::size_t n = 0; n + 1 < rasters.size(); ++n) coverages.emplace_back(rasters[n]);
+    Report told;  // when the ground was read
+    for (const FarTerrainSource& source : sources)
+      rasters.emplace_back(source.file, fallback_crs, city.georeference, source.is_ground ? told : report);
+    for (std::size_t n = 0; n + 1 < rasters.size(); ++n) coverages.emplace_back(rasters[n], city.grid);
   }
 };
 

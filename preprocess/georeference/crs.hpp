@@ -75,7 +75,7 @@ inline const LengthUnit foot{"foot", 0.3048, "9002", " (ft)"};
 inline const LengthUnit us_survey_foot{"US survey foot", 1200.0 / 3937.0, "9003", " (ftUS)"};
 
 /// A horizontal coordinate reference system (CRS), geographic or projected. Of the vertical part of a definition, only the unit
-/// is used: heights are never shifted from one vertical datum to another. In this class and in CrsTransformation, x is always the
+/// and, by HeightShift, the name and the whole definition are used. In this class and in CrsTransformation, x is always the
 /// easting or the longitude, and y the northing or the latitude; `northing_first` is the order of the authority. Not thread-safe.
 class Crs {
  public:
@@ -90,6 +90,10 @@ class Crs {
   [[nodiscard]] double height_unit_m() const;
   /// Whether the definition has a vertical axis.
   [[nodiscard]] bool says_height_unit() const;
+  /// The vertical system of the definition: "DHHN2016 height", or "ellipsoidal heights of ETRS89". Empty when it has none.
+  [[nodiscard]] std::optional<std::string> heights_name() const;
+  /// WKT2:2019 of the definition with its vertical system. It must have one.
+  [[nodiscard]] std::string whole_wkt() const;
   /// Whether the authority writes the northing or the latitude first.
   [[nodiscard]] bool northing_first() const;
   /// Whether the axes point east and north, in any order. Those of Lo (South Africa) and of polar stereographic CRSs do not.

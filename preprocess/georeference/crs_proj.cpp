@@ -111,6 +111,7 @@ struct Crs::Impl {
   Object shifted;     ///< easting first, with its shift to WGS 84 if it has one: for transformations
   Object plain;       ///< easting first, without that shift
   Object registered;  ///< in the order of the authority: the entry of the EPSG register, or the given definition
+  Object whole;       ///< the definition with its vertical system; empty where it has none
   double height_unit_m = 1.0;
   bool says_height_unit = false;
   bool northing_first = false;
@@ -131,6 +132,7 @@ std::shared_ptr<const Crs::Impl> Crs::Impl::make(const Context& context, Object 
   auto impl = std::make_shared<Impl>();
   impl->context = context;
   const auto height_unit = vertical_unit_m(context, given.get());
+  if (height_unit) impl->whole = clone(context, given.get());
   Object horizontal = horizontal_part(context, std::move(given));
   Object plain = horizontal ? without_shift(context, clone(context, horizontal.get())) : nullptr;
   if (!plain || !is_projected_or_geographic(proj_get_type(plain.get()))) return nullptr;
@@ -205,6 +207,23 @@ std::optional<Point2d> Crs::lon_lat_deg(Point2d p) const {
   const Point2d lon_lat = base.unit() * (180.0 / std::numbers::pi) * *there;
   const double greenwich_deg = prime_meridian_deg(base.impl_->context, base.impl_->plain.get()).value_or(0.0);
   return std::abs(lon_lat.y) <= 90.0 ? std::optional(Point2d{lon_lat.x + greenwich_deg, lon_lat.y}) : std::nullopt;
+}
+
+std::optional<std::string> Crs::heights_name() const {
+  if (!impl_->whole) return std::nullopt;
+  const Object plain = without_shift(impl_->context, clone(impl_->context, impl_->whole.get()));
+  const bool is_compound = proj_get_type(plain.get()) == PJ_TYPE_COMPOUND_CRS;
+  if (!is_compound) return "ellipsoidal heights of " + geographic().name();
+  const Object vertical = without_shift(impl_->context, Object(proj_crs_get_sub_crs(impl_->context.get(), plain.get(), 1)));
+  return vertical ? std::optional<std::string>(proj_get_name(vertical.get())) : std::nullopt;
+}
+
+std::string Crs::whole_wkt() const {
+  FARLOD_EXPECTS(impl_->whole != nullptr);
+  const char* const options[] = {"MULTILINE=NO", nullptr};
+  const char* text = proj_as_wkt(impl_->context.get(), impl_->whole.get(), PJ_WKT2_2019, options);
+  FARLOD_EXPECTS(text != nullptr);
+  return text;
 }
 
 std::string Crs::name() const { return proj_get_name(impl_->registered.get()); }

@@ -12,6 +12,7 @@
 #include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
+#include "georeference/height_shift.hpp"
 #include "georeference/implausible_model.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/resolved_source.hpp"
@@ -216,9 +217,11 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
   const std::vector<InputCrs> inputs = crs_of_inputs(sources, settings);
   LocatedCity located;
   std::optional<Crs> output;
+  std::string heights_of_model;
   for (std::size_t n = 0; n < sources.size(); ++n) {
     ResolvedSource resolved = resolve(std::move(sources[n]), inputs[n], report);
     if (!output) output = choose_output_crs(resolved.crs, resolved.typical, settings.out_crs);
+    shift_heights(resolved, located.notes, heights_of_model, report);
     project(resolved, *output, report);
     locate_problems(resolved, report);
     resolved.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
@@ -233,6 +236,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
     throw InputError("no building is left that could be put on the map: see the report for what is wrong with each");
   report_doubts(located, *output, report);
   move_to_origin(located, *output);
+  located.georeference.heights_wkt = heights_of_model;
   return located;
 }
 

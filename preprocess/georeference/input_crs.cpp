@@ -266,7 +266,8 @@ bool mean_the_same(const SourceCity& source, const NamedCrs& own, const NamedCrs
 }
 
 InputCrs overruled(const SourceCity& source, const NamedCrs& own, const NamedCrs& given) {
-  if (mean_the_same(source, own, given)) return {own};
+  // What is the same but for the heights may be given to say their zero
+  if (mean_the_same(source, own, given)) return {given.crs.heights_name() && !own.crs.heights_name() ? given : own};
   const std::string file_says = "the file says " + label_of(own), option_says = "--crs says " + label_of(given);
   return {given, ProblemCode::two_crs, file_says + "; " + option_says + ", which is used",
           InputCrs::Own{own, file_says + ", which is used; " + option_says + ", but its coordinates cannot be in that"}};

@@ -66,7 +66,7 @@ struct PlacedRaster {
     return std::isfinite(height) ? std::optional(height) : std::nullopt;
   }
   [[nodiscard]] PixelFrame frame() const;
-  /// Of the file, before anything is done to it.
+  /// The rectangle of the file, before anything is done to it.
   [[nodiscard]] Box2d extent() const;
 
   /// Finds the CRS of the file, and the scale of its heights.

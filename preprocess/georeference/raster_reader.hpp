@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -22,7 +23,7 @@ struct TerrainFile {
 
   std::filesystem::path path;
   bool is_named = true;
-  /// Of a file of several rasters: the name of the one to read. A file of one may have another one, unless it is the city.
+  /// The name of the raster to read, of a file of several. A file of one may have another one, unless it is the city.
   std::optional<std::string> layer = {};
 };
 
@@ -35,21 +36,48 @@ struct TerrainExtent {
 /// Throws InputError when the file is not a raster, or has no place on the map.
 [[nodiscard]] TerrainExtent read_terrain_extent(const TerrainFile& file);
 
-/// The frame of a city that consists of a terrain or surface model alone. The CRS is chosen by the same rules as for buildings.
-[[nodiscard]] Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings);
+/// The frame of a city that consists of a terrain or surface model alone. The CRS is chosen by the same rules as for buildings;
+/// that of the first file counts, and so does the place of those in the same CRS.
+[[nodiscard]] Georeference georeference_of_terrain(std::span<const TerrainFile> files, const GeoreferenceSettings& settings);
+[[nodiscard]] inline Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings) {
+  return georeference_of_terrain(std::span(&file, 1), settings);
+}
 
 /// Reads the heights of the ground from band 1 of any raster that GDAL reads.
 ///   (1) a north-up raster in the output CRS is read as it is; the nodes of the terrain are the centres of its pixels
-///   (2) any other raster is resampled into the output CRS, bilinearly, at a similar resolution
+///   (2) any other raster is resampled into the output CRS: a terrain bilinearly at a similar resolution, a surface model
+///   (without
+///       `wanted_city`) in squares of a third of its pixels, each with the height of the nearest one, which is told
 ///   (3) pixels that are masked or have no data are empty; the scale and offset of the band are applied
 ///   (4) heights are in metres: by the unit of the band, else by the vertical unit of the CRS, else, if that is projected, by its
 ///       horizontal unit
 ///   (5) numbers that stand for no data though the raster does not declare it are empty, and reported (undeclared_no_data)
+///   (6) heights whose vertical system is another one than that of the city are brought to that, or reported (another_datum)
 /// A raster without a CRS is in `fallback_crs` or, if that is empty, in the output CRS. Only the part over `wanted_city` is read,
 /// and one pixel around it; without it, the raster is the city. An unlikely place is reported as that of a city file is
 /// (resolve). Throws InputError when the file cannot be read, does not cover `wanted_city`, or is in degrees and its CRS is not.
 [[nodiscard]] TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs,
                                          const Georeference& georeference, std::optional<Box2d> wanted_city, Report& report);
+/// The same, but empty when the file does not cover `wanted_city`.
+[[nodiscard]] std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::string& fallback_crs,
+                                                        const Georeference& georeference, std::optional<Box2d> wanted_city,
+                                                        Report& report);
+/// Reads the tiles of one terrain, of which some may lie elsewhere. Throws InputError when all do, and as for a single file.
+/// Where neither the city nor a file before says its vertical system, that of a file is the one of those after it.
+[[nodiscard]] TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs,
+                                         Georeference georeference, std::optional<Box2d> wanted_city, Report& report);
+/// One net of several, as fine as the finest. Where they overlap, later ones lie on top, but for where they have no data.
+[[nodiscard]] TerrainRaster merged(const std::vector<TerrainRaster>& tiles);
+
+/// A surface model that is turned or in another CRS than the city.
+struct TurnedSurface {
+  std::vector<Point3d> points_city;  ///< the centres of its pixels
+  std::string note;                  ///< for the user
+};
+/// Empty where `read_terrain` reads the raster as it is. Else each pixel with a height is a point, so that walls are as steep as
+/// in a raster that is not turned; reports as `read_terrain` does. Throws InputError when the file cannot be read.
+[[nodiscard]] std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const std::string& fallback_crs,
+                                                               const Georeference& georeference, Report& report);
 
 /// The files of a canopy.
 struct CanopyFiles {

@@ -13,6 +13,7 @@
 #include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/crs.hpp"
+#include "georeference/height_shift.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/placed_raster_gdal.hpp"
 #include "georeference/raster_reader.hpp"
@@ -110,13 +111,40 @@ std::optional<StandInOfFile> sampled_stand_in(const PlacedRaster& raster, Height
                                             (static_cast<double>(row) + 0.5) * band.GetYSize() / rows)};
 }
 
-/// North up. Stand-ins for no data must not become heights between them and their neighbours.
-PlacedRaster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output, HeightsOf of,
-                        Report& report) {
+/// Walls of a surface model stand between two pixels. Resampled bilinearly they lean over two pixels, which shows up to .014 more
+/// sky beside them; resampled to the nearest pixel once, their borders are ragged by half a pixel (up to .018 off the sky above
+/// the pixels as blocks); in thirds, .005.
+constexpr double squares_per_pixel = 3.0;
+
+void bring_into_fine_squares(PlacedRaster& raster, WarpWay way, const Crs& own, const Crs& output) {
+  way.resampling = "near";
+  const bool is_turned = own.equals(output);
+  if (is_turned) {
+    const PixelFrame frame = raster.frame();
+    way.step = std::min(norm(frame.column_step), norm(frame.row_step)) / squares_per_pixel;
+    way.extent = raster.extent();
+  } else {
+    raster.warp(way, output);
+    way.step = raster.frame().column_step.x / squares_per_pixel;
+  }
+  raster.warp(way, output);
+  raster.note = raster.path.string() + ": since " + (is_turned ? "it is turned" : "it is in " + own.name()) +
+                ", it is read in squares of " + length_text(*way.step) + " m, each with the height of the nearest pixel";
+}
+
+/// A raster that is north up in the output CRS, and the CRS of its file.
+struct ReadyRaster {
+  PlacedRaster raster;
+  Crs own;
+};
+
+/// Stand-ins for no data must not become heights between them and their neighbours.
+ReadyRaster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output, HeightsOf of,
+                       Report& report) {
   PlacedRaster raster{file.path, open_raster(file)};
   const Crs crs = raster.take_crs(fallback_crs, output);
   const PixelFrame frame = raster.frame();
-  const Point2d middle{0.5 * raster.file->GetRasterXSize(), 0.5 * raster.file->GetRasterYSize()};
+  const Point2d middle{0.5 * raster.columns(), 0.5 * raster.rows()};
   report_place(file.path.string(), crs, frame.place(middle.x, middle.y), frame.place(middle.x + 1.0, middle.y), report);
   if (!crs.equals(output) || !frame.is_north_up()) {
     WarpWay way{crs.wkt(), output.wkt()};
@@ -124,9 +152,12 @@ PlacedRaster make_ready(const TerrainFile& file, const std::string& fallback_crs
       way.no_data = found->number;
       report_stand_in(raster, crs, *found, "", report);
     }
-    raster.warp(way, output);
+    if (of == HeightsOf::surfaces)
+      bring_into_fine_squares(raster, std::move(way), crs, output);
+    else
+      raster.warp(way, output);
   }
-  return raster;
+  return {std::move(raster), crs};
 }
 
 /// Empties what is left of heights that no place has. Where the raster was resampled, all was told before.
@@ -141,6 +172,22 @@ void require_heights(TerrainRaster& terrain, const PlacedRaster& raster, Heights
   }
 }
 
+/// The pixels that have a height, in the CRS of the projection.
+std::vector<Point3d> centres_of_row(const PlacedRaster& raster, const PixelFrame& frame, int row,
+                                    const std::optional<StandInOfFile>& stand_in, const Projection& projection) {
+  std::vector<double> numbers(static_cast<std::size_t>(raster.columns()));
+  if (!read_pixels(*raster.dataset().GetRasterBand(1), 0, row, numbers)) refuse_raster(raster.path, "cannot be read to its end");
+  std::vector<Point3d> points;
+  for (std::size_t column = 0; column < numbers.size(); ++column) {
+    const auto height_m = raster.height_m(numbers[column]);
+    if (!height_m || (stand_in && numbers[column] == stand_in->number)) continue;
+    const Point2d p = frame.place(static_cast<double>(column) + 0.5, row + 0.5);
+    points.push_back({p.x, p.y, *height_m});
+  }
+  projection(points);
+  return points;
+}
+
 TerrainExtent extent_of(const TerrainFile& file, bool is_city) {
   const GdalErrors quiet;
   const PlacedRaster raster{file.path, open_raster(file, is_city)};
@@ -151,32 +198,68 @@ TerrainExtent extent_of(const TerrainFile& file, bool is_city) {
 
 TerrainExtent read_terrain_extent(const TerrainFile& file) { return extent_of(file, false); }
 
-Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings) {
-  const TerrainExtent extent = extent_of(file, true);
-  const Crs input = crs_of_input(file.path.string(), extent.crs_wkt, settings.crs).crs;
+Georeference georeference_of_terrain(std::span<const TerrainFile> files, const GeoreferenceSettings& settings) {
+  const std::string name = files.front().path.string();
+  TerrainExtent extent = extent_of(files.front(), files.size() == 1);
+  for (const TerrainFile& file : files.subspan(1))
+    if (const TerrainExtent other = extent_of(file, false); other.crs_wkt == extent.crs_wkt)
+      for (const Point2d corner : {other.box.low, other.box.high}) extent.box.add(corner);
+  const Crs input = crs_of_input(name, extent.crs_wkt, settings.crs).crs;
   const Point2d centre = 0.5 * (extent.box.low + extent.box.high);
   const Crs output = choose_output_crs(input, centre, settings.out_crs);
   const auto place = input.equals(output) ? centre : CrsTransformation(input, output, centre).apply(centre);
-  if (!place) throw InputError(file.path.string() + ": its centre has no place in " + output.name() + ": check its CRS");
+  if (!place) throw InputError(name + ": its centre has no place in " + output.name() + ": check its CRS");
   return georeference_around(*place, output);
 }
 
-TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs, const Georeference& georeference,
-                           std::optional<Box2d> wanted_city, Report& report) {
+std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::string& fallback_crs,
+                                          const Georeference& georeference, std::optional<Box2d> wanted_city, Report& report) {
   const GdalErrors quiet;
   const HeightsOf of = wanted_city ? HeightsOf::ground : HeightsOf::surfaces;
   const auto output = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(output.has_value());
-  const PlacedRaster ready = make_ready(file, fallback_crs, *output, of, report);
+  const auto [ready, own] = make_ready(file, fallback_crs, *output, of, report);
   if (wanted_city) *wanted_city = {wanted_city->low + georeference.origin_m, wanted_city->high + georeference.origin_m};
   const RasterWindow window = window_of(ready, wanted_city);
-  if (window.is_empty())
-    throw InputError(
-        file.path.string() +
-        ": does not cover the city: check its CRS, which was taken to be that of --crs or the output if it says none");
+  if (window.is_empty()) return std::nullopt;
   auto terrain = read_window(ready, window, georeference.origin_m);
   if (!terrain) refuse_raster(file.path, "cannot be read to its end");
   require_heights(*terrain, ready, of, *output, georeference.origin_m, report);
+  shift_heights(*terrain, file.path.string(), own, georeference, report);
+  if (!ready.note.empty()) terrain->notes.push_back(ready.note);
+  return terrain;
+}
+
+std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const std::string& fallback_crs,
+                                                 const Georeference& georeference, Report& report) {
+  const GdalErrors quiet;
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  PlacedRaster raster{file.path, open_raster(file, true)};
+  const Crs own = raster.take_crs(fallback_crs, *output);
+  const PixelFrame frame = raster.frame();
+  if (own.equals(*output) && frame.is_north_up()) return std::nullopt;
+  const Point2d middle{0.5 * raster.columns(), 0.5 * raster.rows()};
+  report_place(file.path.string(), own, frame.place(middle.x, middle.y), frame.place(middle.x + 1.0, middle.y), report);
+  const auto stand_in = sampled_stand_in(raster, HeightsOf::surfaces);
+  if (stand_in) report_stand_in(raster, own, *stand_in, "", report);
+  const Projection projection = make_projection(own, *output, frame.place(middle.x, middle.y));
+  TurnedSurface surface;
+  for (int row = 0; row < raster.rows(); ++row)
+    for (const Point3d& p : centres_of_row(raster, frame, row, stand_in, projection))
+      if (is_on_a_map(p)) surface.points_city.push_back(p - Point3d{georeference.origin_m.x, georeference.origin_m.y, 0.0});
+  surface.note = file.path.string() + ": since " + (own.equals(*output) ? "it is turned" : "it is in " + own.name()) +
+                 ", the centres of its pixels are brought to " + output->name() + " one by one, and nothing is resampled";
+  return surface;
+}
+
+TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs, const Georeference& georeference,
+                           std::optional<Box2d> wanted_city, Report& report) {
+  auto terrain = find_terrain(file, fallback_crs, georeference, wanted_city, report);
+  if (!terrain)
+    throw InputError(
+        file.path.string() +
+        ": does not cover the city: check its CRS, which was taken to be that of --crs or the output if it says none");
   return std::move(*terrain);
 }
 

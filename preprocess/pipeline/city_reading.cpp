@@ -14,6 +14,7 @@
 #include "city/geometry.hpp"
 #include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
+#include "ingest/files/file_format.hpp"
 #include "ingest/trees/tree_reader.hpp"
 
 namespace farlod::pipeline {
@@ -37,14 +38,13 @@ Box2d ground_outline(const LocatedCity& located, const std::optional<TerrainRast
   return terrain ? outline_of(*terrain) : outline_of(located.relief_points);
 }
 
-void require_one_raster(const std::vector<ingest::InputFile>& surface_models,
-                        const std::optional<std::filesystem::path>& terrain) {
+void require_one_raster(const std::vector<ingest::InputFile>& surface_models, const std::vector<std::filesystem::path>& terrain) {
   const std::string& first = surface_models.front().name;
   if (surface_models.size() > 1)
     throw InputError(first + " and " + surface_models[1].name +
                      " are both rasters of heights: give one of them, or their mosaic.");
-  if (terrain)
-    throw InputError(first + " is a raster of heights, and so is --terrain " + terrain->string() + ": give one of them.");
+  if (!terrain.empty())
+    throw InputError(first + " is a raster of heights, and so is --terrain " + terrain.front().string() + ": give one of them.");
 }
 
 void require_ground_below_roofs(const CityModel& city) {
@@ -73,7 +73,9 @@ class CityReading {
     require_usable();
     const align::GridSettings grid = choose_settings();
     read_.ground = lay_grid(grid, report_, run_stage_);
-    read_.terrain_file = std::move(files_.terrain);
+    read_.terrain_files = std::move(files_.terrain);
+    if (const auto& terrain = read_.ground.terrain)
+      read_.notes.insert(read_.notes.end(), terrain->notes.begin(), terrain->notes.end());
     return std::move(read_);
   }
 
@@ -100,11 +102,29 @@ class CityReading {
   void locate(std::vector<SourceCity> sources) {
     georeference::GeoreferenceSettings settings = settings_.georeference;
     if (sources.empty()) {
-      read_.located = {{}, georeference::georeference_of_terrain(*files_.terrain, settings)};
+      read_.located = {{}, georeference::georeference_of_terrain(files_.terrain, settings)};
+      take_turned_surface();
       return;
     }
-    settings.crs_is_for_another |= files_.terrain && georeference::read_terrain_extent(*files_.terrain).crs_wkt.empty();
+    settings.crs_is_for_another |= std::any_of(files_.terrain.begin(), files_.terrain.end(), [](const auto& tile) {
+      return georeference::read_terrain_extent(tile).crs_wkt.empty();
+    });
     read_.located = georeference::georeference(std::move(sources), settings, report_);
+    std::move(read_.located.notes.begin(), read_.located.notes.end(), std::back_inserter(read_.notes));
+  }
+
+  /// Its points are read like those of a relief.
+  void take_turned_surface() {
+    if (files_.terrain.size() != 1) return;
+    auto surface = georeference::read_turned_surface(files_.terrain.front(), settings_.georeference.crs,
+                                                     read_.located.georeference, report_);
+    if (!surface) return;
+    if (surface->points_city.empty())
+      throw InputError(files_.terrain.front().path.string() + " has no heights: give a surface model that has some.");
+    for (Point3d& p : surface->points_city) p.z += settings_.terrain_offset_m;
+    read_.located.relief_points = std::move(surface->points_city);
+    read_.notes.push_back(std::move(surface->note));
+    files_.terrain.clear();
   }
 
   void require_usable() {
@@ -112,7 +132,7 @@ class CityReading {
     if (read_.located.city.buildings().empty() && read_.located.relief_points.empty())
       throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
     resolve_relief();
-    if (!files_.terrain && read_.located.relief_points.empty()) require_ground_below_roofs(read_.located.city);
+    if (files_.terrain.empty() && read_.located.relief_points.empty()) require_ground_below_roofs(read_.located.city);
   }
 
   /// Drops a relief that is not used: a raster replaces it, or it lies elsewhere than the city. Counts its points as skipped.
@@ -121,8 +141,8 @@ class CityReading {
     if (located.relief_points.empty()) return;
     const bool is_elsewhere = !located.city.buildings().empty() &&
                               !boxes_meet(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
-    if (!files_.terrain && !is_elsewhere) return;
-    const char* reason = files_.terrain ? " (the raster stands in for them)" : " (none lies where the city is)";
+    if (files_.terrain.empty() && !is_elsewhere) return;
+    const char* reason = !files_.terrain.empty() ? " (the raster stands in for them)" : " (none lies where the city is)";
     read_.skipped[std::string("points of reliefs") + reason] += located.relief_points.size();
     located.relief_points.clear();
   }
@@ -156,7 +176,7 @@ class CityReading {
   [[nodiscard]] GridOnGround lay_grid(const align::GridSettings& settings, Report& report, const RunStage& run_stage) const {
     std::optional<TerrainRaster> terrain;
     const auto read = [&](const std::optional<Box2d>& wanted_city) {
-      if (files_.terrain) run_stage("terrain", [&] { terrain = read_ground(*files_.terrain, wanted_city, report); });
+      if (!files_.terrain.empty()) run_stage("terrain", [&] { terrain = read_ground(wanted_city, report); });
     };
     if (read_.located.city.buildings().empty()) {
       read(std::nullopt);
@@ -170,12 +190,12 @@ class CityReading {
     return {aligned.grid, std::move(terrain), aligned.streets};
   }
 
-  [[nodiscard]] TerrainRaster read_ground(const georeference::TerrainFile& file, const std::optional<Box2d>& wanted_city,
-                                          Report& report) const {
-    TerrainRaster terrain =
-        georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city, report);
+  [[nodiscard]] TerrainRaster read_ground(const std::optional<Box2d>& wanted_city, Report& report) const {
+    TerrainRaster terrain = georeference::read_terrain(std::span(files_.terrain), settings_.georeference.crs,
+                                                       read_.located.georeference, wanted_city, report);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
-      throw InputError(file.path.string() + " has no heights where the city lies: give a terrain that covers it.");
+      throw InputError(files_.terrain.front().path.string() +
+                       " has no heights where the city lies: give a terrain that covers it.");
     for (auto& height_m : terrain.height_m)
       if (height_m) *height_m += static_cast<float>(settings_.terrain_offset_m);
     return terrain;
@@ -191,18 +211,57 @@ class CityReading {
 
 }  // namespace
 
+namespace {
+
+/// The rasters in a folder, by name. A folder may be a raster itself (ESRI's grids).
+std::vector<std::filesystem::path> rasters_in(const std::filesystem::path& folder) {
+  const auto is_raster = [](const std::filesystem::path& path) {
+    ingest::InputFile file(path);
+    file.is_named = false;
+    return ingest::map_kind_of(file) == ingest::MapKind::raster;
+  };
+  std::vector<std::filesystem::path> rasters;
+  if (is_raster(folder)) return {folder};
+  std::error_code error;
+  for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code vanished;
+    if (entry->is_regular_file(vanished) && is_raster(entry->path())) rasters.push_back(entry->path());
+  }
+  std::sort(rasters.begin(), rasters.end());
+  if (rasters.empty()) throw InputError(folder.string() + " holds no raster of heights that can be read: give files.");
+  return rasters;
+}
+
+CityFiles tiles_of_terrain(const std::vector<std::filesystem::path>& given) {
+  CityFiles city;
+  std::error_code unread;
+  for (const std::filesystem::path& path : given) {
+    const bool is_folder = std::filesystem::is_directory(path, unread);
+    for (const std::filesystem::path& tile : is_folder ? rasters_in(path) : std::vector{path}) {
+      city.terrain.emplace_back(tile, !is_folder);
+      city.terrain_on_disk.push_back(tile);
+    }
+  }
+  return city;
+}
+
+}  // namespace
+
 CityFiles find_city_files(const StageSettings& settings, Report& report) {
   const std::optional<std::string>& layer = settings.ingest.footprints.layer;
-  CityFiles city{{}, {}, settings.terrain, settings.terrain, {}};
-  if (city.terrain) city.terrain->layer = layer;
+  CityFiles city = tiles_of_terrain(settings.terrain);
+  const auto name_layer = [&] {
+    for (georeference::TerrainFile& tile : city.terrain) tile.layer = layer;
+  };
+  name_layer();
   if (settings.inputs.empty()) return city;
   ingest::FoundInputs found = ingest::find_input_files(settings.inputs, report, layer);
   if (!found.surface_models.empty()) {
     require_one_raster(found.surface_models, settings.terrain);
     const ingest::InputFile& model = found.surface_models.front();
-    city.terrain = georeference::TerrainFile(model.path, model.is_named);
-    city.terrain->layer = layer;
-    city.terrain_on_disk = model.on_disk;
+    city.terrain.emplace_back(model.path, model.is_named);
+    city.terrain_on_disk.push_back(model.on_disk);
+    name_layer();
   }
   for (const ingest::InputFile& file : found.files) city.on_disk.push_back(file.on_disk);
   city.on_disk.erase(std::unique(city.on_disk.begin(), city.on_disk.end()), city.on_disk.end());

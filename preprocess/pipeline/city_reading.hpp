@@ -27,9 +27,9 @@ using RunStage = std::function<void(const std::string& stage, const std::functio
 /// The files that the inputs of the user lead to, not read yet.
 struct CityFiles {
   std::vector<ingest::InputFile> files;
-  std::vector<std::filesystem::path> on_disk;            ///< an archive is one input, however many of its files are read
-  std::optional<georeference::TerrainFile> terrain;      ///< as GDAL opens it
-  std::optional<std::filesystem::path> terrain_on_disk;  ///< the file, or the archive that holds it
+  std::vector<std::filesystem::path> on_disk;          ///< an archive is one input, however many of its files are read
+  std::vector<georeference::TerrainFile> terrain;      ///< its tiles, as GDAL opens them
+  std::vector<std::filesystem::path> terrain_on_disk;  ///< the files, or the archives that hold them
   SkippedFeatures skipped;
 };
 
@@ -47,7 +47,7 @@ struct GridOnGround {
 struct ReadCity {
   LocatedCity located;
   GridOnGround ground;
-  std::optional<georeference::TerrainFile> terrain_file;  ///< of which the ground is a part
+  std::vector<georeference::TerrainFile> terrain_files;  ///< of which the ground is a part
   FarMapSettings far_map;
   bool is_chosen = false;          ///< cells, neighborhood and tolerance were to be chosen
   std::optional<GridChoice> best;  ///< and this is the choice; none where nothing keeps the error

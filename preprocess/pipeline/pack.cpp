@@ -206,10 +206,12 @@ class Packing {
   }
 
   /// The ground beyond the grid; none where no raster may have it.
-  FarTerrain far_terrain_around(const Georeference& place, const std::optional<georeference::TerrainFile>& terrain,
+  FarTerrain far_terrain_around(const Georeference& place, const std::vector<georeference::TerrainFile>& terrain,
                                 const tiles::Ground& ground, double height_origin_m) {
     std::vector<far_terrain::FarTerrainSource> sources;
-    if (terrain) sources.push_back({*terrain, settings_.terrain_offset_m, true});
+    // Of the tiles of the terrain, the last lies on top
+    for (auto tile = terrain.rbegin(); tile != terrain.rend(); ++tile)
+      sources.push_back({*tile, settings_.terrain_offset_m, true});
     for (const std::filesystem::path& file : settings_.far_terrains) sources.push_back({file});
     if (sources.empty()) return {};
     const far_terrain::CityGround city{place, record_.result.manifest.grid, height_origin_m, ground.lowest_m().value_or(0.0),
@@ -228,7 +230,7 @@ class Packing {
     const Georeference place = city.located.georeference;
     FarTerrain far_terrain;
     const tiles::OnGround on_ground = [&](const tiles::Ground& ground, double height_origin_m) {
-      far_terrain = far_terrain_around(place, city.terrain_file, ground, height_origin_m);
+      far_terrain = far_terrain_around(place, city.terrain_files, ground, height_origin_m);
       if (!trees.any()) return;
       tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
       crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
@@ -337,7 +339,7 @@ class Packing {
 /// All shards have made their blocks.
 PackedCity merge(const StageSettings& settings, Report& report) {
   std::optional<PackageOrigin> origin;
-  if (!settings.inputs.empty() || settings.terrain)
+  if (!settings.inputs.empty() || !settings.terrain.empty())
     origin = origin_of(settings, find_city_files(settings, report), origin_of_unfinished(settings.output));
   const auto start = Clock::now();
   auto [target, record] = PackTarget::to_merge(settings, origin);

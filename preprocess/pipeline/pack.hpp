@@ -45,8 +45,8 @@ enum class PackPart { whole, shard, merge };
 
 /// From which files a package is made, and what each stage is told.
 struct StageSettings {
-  std::vector<std::filesystem::path> inputs;  ///< files, folders and archives; may be empty when there is a terrain
-  std::optional<std::filesystem::path> terrain;
+  std::vector<std::filesystem::path> inputs;   ///< files, folders and archives; may be empty when there is a terrain
+  std::vector<std::filesystem::path> terrain;  ///< rasters, and folders of them
   double terrain_offset_m = 0.0;
   std::vector<std::filesystem::path> far_terrains;  ///< beyond what `terrain` covers
   TreeSettings trees = {};

@@ -116,7 +116,7 @@ void add_input_settings(const StageSettings& s, Values& values) {
   if (!s.ingest.ground_names.empty())
     values.emplace_back("ground-names", fmt::format("{}", fmt::join(s.ingest.ground_names, ",")));
   values.emplace_back("lod", s.ingest.lod.exactly ? std::to_string(*s.ingest.lod.exactly) : "best");
-  if (s.terrain) values.emplace_back("terrain", s.terrain->filename().string());
+  for (const fs::path& tile : s.terrain) values.emplace_back("terrain", tile.filename().string());
   for (const fs::path& file : s.far_terrains) values.emplace_back("far-terrain", file.filename().string());
   if (s.terrain_offset_m != 0.0) values.emplace_back("terrain-offset", fmt::format("{}", s.terrain_offset_m));
 }
@@ -173,7 +173,7 @@ void add_grid_settings(const StageSettings& s, Values& values) {
 PackageOrigin origin_of(const StageSettings& settings, const CityFiles& files, const std::optional<PackageOrigin>& earlier) {
   Inputs inputs(earlier);
   for (const fs::path& file : files.on_disk) inputs.add(file);
-  if (files.terrain_on_disk) inputs.add(*files.terrain_on_disk);
+  for (const fs::path& file : files.terrain_on_disk) inputs.add(file);
   for (const fs::path& file : settings.far_terrains) inputs.add(file);
   for (const fs::path& file : settings.trees.files) inputs.add(file);
   if (settings.trees.canopy) inputs.add(*settings.trees.canopy);

@@ -15,10 +15,12 @@ namespace {
 
 void check_files(const PackSettings& s) {
   if (s.output.empty()) throw InvalidArgument("output is empty: give the folder of the package, NAME.farlod");
-  if (s.inputs.empty() && !s.terrain && !s.merge) throw InvalidArgument("inputs are empty: give a city file, or a terrain");
+  if (s.inputs.empty() && s.terrain.empty() && !s.merge)
+    throw InvalidArgument("inputs are empty: give a city file, or a terrain");
   for (const std::filesystem::path& input : s.inputs)
     if (input.empty()) throw InvalidArgument("one of the inputs has an empty name: give the path of a file or a folder");
-  if (s.terrain && s.terrain->empty()) throw InvalidArgument("terrain is empty: give the path of a raster, or no terrain");
+  if (std::any_of(s.terrain.begin(), s.terrain.end(), [](const auto& path) { return path.empty(); }))
+    throw InvalidArgument("terrain is empty: give the path of a raster, or no terrain");
   for (const auto& file : s.far_terrains)
     if (file.empty()) throw InvalidArgument("far_terrains has an empty path: give the paths of rasters");
   require_between("terrain_offset_m", s.terrain_offset_m, -1000.0, 1000.0);

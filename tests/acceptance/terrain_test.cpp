@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <filesystem>
 
 #include "base/frame.hpp"
 #include "tests/acceptance/packed_town.hpp"
@@ -38,6 +39,18 @@ TEST_F(Terrain, ReceiversStandOnIt) {
   for (const Point2d p : {Point2d{}, {100.0, 0.0}, {-123.0, 77.0}, {401.5, -398.25}}) {
     EXPECT_NEAR(answer_at(town_middle + p, "").number(0, "z_m"), plane_m(p) + 1.5, plane_error_m);
     EXPECT_NEAR(answer_at(town_middle + p, "--on-surface").number(0, "z_m"), plane_m(p) + 1.5, plane_error_m);
+  }
+}
+
+TEST_F(Terrain, MayComeInTilesAndInAFolder) {
+  std::filesystem::create_directory(folder.path("tiles"));
+  folder.write("tiles/a.asc", ascii_grid(plane_m));
+  folder.write("tiles/b.asc", ascii_grid([](Point2d p) { return p.x > 50.0 ? plane_m(p) + 30.0 : -9999.0; }));
+  const Point2d west{-100.0, 20.0}, east{100.0, 20.0};
+  for (const char* terrain : {"--terrain tiles", "--terrain tiles/a.asc --terrain tiles/b.asc"}) {
+    folder.must(std::string("farlod-pack --crs EPSG:32632 --force -o a.farlod ") + terrain);
+    EXPECT_NEAR(answer_at(town_middle + west, "").number(0, "z_m"), plane_m(west) + 1.5, plane_error_m) << terrain;
+    EXPECT_NEAR(answer_at(town_middle + east, "").number(0, "z_m"), plane_m(east) + 31.5, plane_error_m) << terrain;
   }
 }
 

@@ -35,7 +35,7 @@ std::vector<WrongPack> wrong_files() {
   return {{"no output", [](PackSettings& s) { s.output.clear(); }},
           {"no inputs", [](PackSettings& s) { s.inputs.clear(); }},
           {"an input without a name", [](PackSettings& s) { s.inputs.emplace_back(); }},
-          {"a terrain without a name", [](PackSettings& s) { s.terrain = ""; }},
+          {"a terrain without a name", [](PackSettings& s) { s.terrain = {""}; }},
           {"trees without a name", [](PackSettings& s) { s.trees.files.emplace_back(); }},
           {"a canopy without a name", [](PackSettings& s) { s.trees.canopy = ""; }},
           {"trunks without a canopy", [](PackSettings& s) { s.trees.trunks = "trunks.tif"; }},

@@ -129,6 +129,9 @@ def test_terrain_in_memory(tmp_path: Path) -> None:
     ground = ground.rio.write_crs("EPSG:25832")
     city = farlod.pack(frame, tmp_path / "hill.farlod", heights="h", terrain=ground, report=False)
     assert city.evaluate([[690005.0, 5.3e6 + 5.0]]).height[0] == pytest.approx(101.5, abs=0.01)
+    tiles = [ground, ground + 20.0]
+    city = farlod.pack(frame, tmp_path / "tiles.farlod", heights="h", terrain=tiles, report=False)
+    assert city.evaluate([[690005.0, 5.3e6 + 5.0]]).height[0] == pytest.approx(121.5, abs=0.01)
 
 
 def test_far_terrain_in_memory(tmp_path: Path) -> None:

@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "ingest/palm/palm_driver_reader.hpp"
-
 namespace farlod::ingest {
 namespace {
 

@@ -45,6 +45,9 @@ enum class MapKind {
 /// unless `layer` is the name of a raster in it. A raster without a place on the map, such as a photograph, is `unknown`.
 [[nodiscard]] MapKind map_kind_of(const InputFile& file, const std::optional<std::string>& layer = {});
 
+/// Whether a file is a static driver of PALM: netCDF with `origin_x`, and `zt`, `buildings_2d` or `buildings_3d`.
+[[nodiscard]] bool is_palm_driver(const InputFile& file);
+
 /// Whether bytes begin like a zip archive, or like a gzip file.
 [[nodiscard]] bool is_zip(std::string_view bytes);
 [[nodiscard]] bool is_gzip(std::string_view bytes);

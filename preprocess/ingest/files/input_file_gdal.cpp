@@ -59,6 +59,17 @@ MapKind map_kind_of(const InputFile& file, const std::optional<std::string>& lay
   return is_for_a_name ? MapKind::only_by_name : MapKind::unknown;
 }
 
+bool is_palm_driver(const InputFile& file) {
+  constexpr std::size_t mark_bytes = 4;
+  const std::string beginning = read_beginning(file, mark_bytes);
+  if (!beginning.starts_with("CDF") && beginning != "\x89HDF") return false;
+  const GdalErrors quiet;
+  const GDALDatasetUniquePtr netcdf = open_within(reach_of(file), file.path, GDAL_OF_MULTIDIM_RASTER);
+  const auto variables = netcdf ? netcdf->GetRootGroup() : nullptr;
+  if (!variables || !variables->GetAttribute("origin_x")) return false;
+  return variables->OpenMDArray("zt") || variables->OpenMDArray("buildings_2d") || variables->OpenMDArray("buildings_3d");
+}
+
 namespace {
 
 namespace fs = std::filesystem;

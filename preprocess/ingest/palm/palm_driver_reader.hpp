@@ -8,10 +8,7 @@
 
 namespace farlod::ingest {
 
-/// Whether a file is a static driver of PALM: netCDF with `origin_x`, and `zt`, `buildings_2d` or `buildings_3d`.
-[[nodiscard]] bool is_palm_driver(const InputFile& file);
-
-/// Reads a static driver of PALM.
+/// Reads a static driver of PALM (is_palm_driver).
 ///   (1) `zt` above `origin_z` becomes points of the ground, at the centres of the cells
 ///   (2) neighbouring cells of `buildings_2d` of one height are a prism; prisms of one `building_id` are a building
 ///   (3) `buildings_3d` counts before `buildings_2d`: what is free below a cell of a building stays free

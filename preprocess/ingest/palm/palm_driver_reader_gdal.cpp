@@ -48,10 +48,7 @@ class PalmDriver {
   explicit PalmDriver(const InputFile& file) : name_(file.name) {
     file_ = open_within(file.is_named ? GdalReach::local_files : GdalReach::own_data, file.path, GDAL_OF_MULTIDIM_RASTER);
     if (file_) variables_ = file_->GetRootGroup();
-  }
-
-  [[nodiscard]] bool is_one() const {
-    return variables_ && attribute("origin_x") && (array(terrain_name) || array(heights_name) || array(cells_name));
+    if (!variables_) throw InputError(name_ + " is a static driver of PALM that cannot be read: is it damaged?");
   }
 
   SourceCity read(Report& report) {
@@ -96,7 +93,7 @@ class PalmDriver {
     return values;
   }
 
-  /// Of cells: (y, x), or (z, y, x).
+  /// The values of cells: (y, x), or (z, y, x).
   [[nodiscard]] CellValues cells_of(const GDALMDArray& variable) const {
     const auto& dimensions = variable.GetDimensions();
     const std::size_t n = dimensions.size();
@@ -229,7 +226,7 @@ class PalmDriver {
     }
     for (auto& [number, rings] : polygons_of(of_cell)) {
       const auto [id, bottom_m, top_m] = keys[static_cast<std::size_t>(number)];
-      const std::string name = id == no_building ? "cells " + std::to_string(++unnamed_) : std::to_string(std::llround(id));
+      const std::string name = id == no_building ? "cells " + std::to_string(++without_id_) : std::to_string(std::llround(id));
       buildings_[name].push_back({std::move(rings), {bottom_m, top_m}});
     }
   }
@@ -288,17 +285,10 @@ class PalmDriver {
   Point3d origin_;
   Angle turn_;
   std::map<std::string, std::vector<Prism>> buildings_;
-  std::size_t unnamed_ = 0;
+  std::size_t without_id_ = 0;
 };
 
 }  // namespace
-
-bool is_palm_driver(const InputFile& file) {
-  const GdalErrors quiet;
-  const std::string beginning = read_beginning(file, 4);
-  if (!beginning.starts_with("CDF") && beginning != "\x89HDF") return false;
-  return PalmDriver(file).is_one();
-}
 
 SourceCity read_palm_driver(const InputFile& file, Report& report) {
   const GdalErrors quiet;

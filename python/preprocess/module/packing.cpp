@@ -32,7 +32,9 @@ void set_inputs(PackSettings& settings, const std::vector<std::string>& inputs) 
   settings.inputs.assign(inputs.begin(), inputs.end());
 }
 
-void set_terrain(PackSettings& settings, const std::string& terrain) { settings.terrain = terrain; }
+void set_terrain(PackSettings& settings, const std::vector<std::string>& tiles) {
+  settings.terrain.assign(tiles.begin(), tiles.end());
+}
 void set_far_terrains(PackSettings& settings, const std::vector<std::string>& far_terrains) {
   settings.far_terrains.assign(far_terrains.begin(), far_terrains.end());
 }

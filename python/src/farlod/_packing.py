@@ -265,8 +265,9 @@ def pack(
         Cells along the edge of the near field, odd (default: 3, or what ``max_error`` needs).
     max_error : float, optional
         Chooses cells and neighborhood so that sky view factors keep this error, 0.0001 to 1.
-    terrain : path or xarray.DataArray, optional
-        Elevations of the ground, in metres; not with a surface model, which is all ground.
+    terrain : path, xarray.DataArray, or a list of them, optional
+        Elevations of the ground, in metres; not with a surface model, which is all ground. Of several tiles, later ones lie on
+        top; a path may be a folder of tiles.
     terrain_offset : float, default 0
         Metres added to them, where they count from another datum than the buildings.
     far_terrain : path, xarray.DataArray, or a list of them, optional
@@ -286,7 +287,7 @@ def pack(
     lod : int, optional
         Level of detail to read, 0 to 3 (default: the best from 1 to 3).
     layer : str, optional
-        Layer of a file of several (GeoPackage, File Geodatabase) to read.
+        Layer of a file of several (GeoPackage, File Geodatabase, netCDF) to read: features or a raster.
     encoding : str, optional
         What the texts of a Shapefile without .cpg are in, such as ``"GBK"`` or ``"CP1252"``.
     up, obj_origin
@@ -367,7 +368,9 @@ def pack(
         saved = [saved_model(model, folder, f"city_{n}", crs=settings.crs) for n, model in enumerate(models)]
         settings.set_inputs([model.path for model in saved])
         if terrain is not None:
-            settings.set_terrain(saved_model(terrain, folder, "terrain", crs=settings.crs).path)
+            tiles = terrain if isinstance(terrain, list) else [terrain]
+            saved_tiles = [saved_model(tile, folder, f"terrain_{n}", crs=settings.crs) for n, tile in enumerate(tiles)]
+            settings.set_terrain([tile.path for tile in saved_tiles])
         settings.terrain_offset_m = _arguments.number("terrain_offset", terrain_offset)
         if far_terrain is not None:
             rasters = far_terrain if isinstance(far_terrain, (list, tuple)) else [far_terrain]

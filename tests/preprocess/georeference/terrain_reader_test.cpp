@@ -135,6 +135,9 @@ TEST_F(TerrainReader, CountsHeightsInTheFeetOfTheCrs) {
   EXPECT_EQ(static_cast<float>(*height_m), static_cast<float>(100.0 * 1200.0 / 3937.0));
 }
 
+/// More than the rasters below: a terrain is read, and no surface model.
+const Box2d below_a_city{{-5000.0, -5000.0}, {5000.0, 5000.0}};
+
 // A plane stays a plane under bilinear resampling, up to the bend of the one projection in the other
 TEST_F(TerrainReader, ResamplesFromDegrees) {
   const auto path = file("degrees.tif");
@@ -145,7 +148,7 @@ TEST_F(TerrainReader, ResamplesFromDegrees) {
   dataset.reset();
   const Georeference frame = georeference_of_terrain(path, {});
   EXPECT_EQ(frame.epsg, 32632);
-  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt, report);
+  const TerrainRaster terrain = read_terrain(path, "", frame, below_a_city, report);
   const Crs utm = *Crs::find("EPSG:32632");
   const CrsTransformation to_degrees(utm, *Crs::find("EPSG:4326"), frame.origin_m);
   for (const Point2d p_city : {Point2d{0.0, 0.0}, Point2d{200.0, -300.0}, Point2d{-250.0, 310.0}}) {
@@ -166,7 +169,7 @@ TEST_F(TerrainReader, ResamplesATurnedRaster) {
   fill(*dataset, [](int column, int) { return 1.0 * column; });
   dataset.reset();
   const Georeference frame = georeference_of_terrain(path, {});
-  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt, report);
+  const TerrainRaster terrain = read_terrain(path, "", frame, below_a_city, report);
   const auto height_m = terrain.height_at({0.0, 0.0});
   ASSERT_TRUE(height_m.has_value());
   constexpr double origin_rounding_pixels = 0.5 * (8.0 + 6.0) / 100.0 + 1e-5;  // half a metre along each axis, in pixels of 10 m

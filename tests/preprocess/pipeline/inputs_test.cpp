@@ -72,7 +72,7 @@ TEST_F(PackInputs, TwoRastersAreOneTooMany) {
   packing.settings.inputs = {packing.write("a.asc", flat_raster), packing.write("b.asc", flat_raster)};
   EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("a.asc"), HasSubstr("b.asc"), HasSubstr("give one of them")));
   packing.settings.inputs = {packing.write("a.asc", flat_raster)};
-  packing.settings.terrain = packing.write("b.asc", flat_raster);
+  packing.settings.terrain = {packing.write("b.asc", flat_raster)};
   EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("a.asc"), HasSubstr("--terrain"), HasSubstr("give one of them")));
 }
 
@@ -221,7 +221,7 @@ struct RoofPacking : Packing {
     settings.ingest.footprints.roof_field = "roof";
   }
   void run_on_plain() {
-    settings.terrain = write("dem.asc", plain_name);
+    settings.terrain = {write("dem.asc", plain_name)};
     settings.georeference.crs = "EPSG:32632";  // of the terrain
     run();
   }

@@ -228,7 +228,7 @@ constexpr const char* plain_around_the_town =
 TEST(Pack, HousesThatKnowOnlyTheirHeightStandOnTheTerrain) {
   TownPacking p;
   p.settings.georeference.crs = "EPSG:32632";
-  p.settings.terrain = p.write("dem.asc", plain_around_the_town);
+  p.settings.terrain = {p.write("dem.asc", plain_around_the_town)};
   p.run();
   EXPECT_EQ(p.result.manifest.height_origin_m, 250.0);
   EXPECT_EQ(p.result.manifest.buildings, 3U);
@@ -243,7 +243,7 @@ TEST(Pack, ATerrainAloneIsACityWithoutBuildings) {
   TownPacking p;
   p.settings.inputs.clear();
   p.settings.georeference.crs = "EPSG:32632";
-  p.settings.terrain = p.write("dem.asc", plain_around_the_town);
+  p.settings.terrain = {p.write("dem.asc", plain_around_the_town)};
   p.run();
   EXPECT_EQ(p.result.manifest.buildings, 0U);
   EXPECT_GT(p.result.manifest.triangles, 0U);

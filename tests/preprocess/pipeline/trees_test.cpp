@@ -189,7 +189,7 @@ TEST(PackedTrees, StandOnTheTerrain) {
     for (int column = 0; column < 20; ++column) rows += std::to_string(0.1 * column) + " ";
     rows += "\n";
   }
-  p.settings.terrain = p.write("dem.asc", "ncols 20\nnrows 20\nxllcorner 549900\nyllcorner 5499900\ncellsize 10\n" + rows);
+  p.settings.terrain = {p.write("dem.asc", "ncols 20\nnrows 20\nxllcorner 549900\nyllcorner 5499900\ncellsize 10\n" + rows)};
   p.settings.trees.files = {p.write("trees.csv", "x,y,height,crown,h_trunk\n549990,5499990,9,4,3\n")};
   p.settings.trees.canopy = p.write_canopy("tops.asc", "20 0 0\n0 0 0\n");
   p.settings.trees.heights = CanopyHeights::elevations;

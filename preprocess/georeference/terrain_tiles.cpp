@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "farlod/error.hpp"
+#include "georeference/input_crs.hpp"
+#include "georeference/raster_reader.hpp"
+
+namespace farlod::georeference {
+namespace {
+
+/// Nodes that are nearer to each other than this part of a step are the same.
+constexpr double same_node = 1e-3;
+
+bool is_whole(double steps) { return std::abs(steps - std::round(steps)) < same_node; }
+
+/// The finest net, over all tiles.
+TerrainRaster net_over(const std::vector<TerrainRaster>& tiles) {
+  const TerrainRaster& finest = *std::min_element(tiles.begin(), tiles.end(), [](const TerrainRaster& a, const TerrainRaster& b) {
+    return a.step_m.x * a.step_m.y < b.step_m.x * b.step_m.y;
+  });
+  Box2d box;
+  for (const TerrainRaster& tile : tiles) {
+    box.add(tile.first);
+    box.add(tile.node(tile.columns - 1, tile.rows - 1));
+  }
+  const auto steps = [](double length, double step) { return std::ceil(length / step - same_node); };
+  TerrainRaster net;
+  net.step_m = finest.step_m;
+  net.first = {finest.first.x - steps(finest.first.x - box.low.x, net.step_m.x) * net.step_m.x,
+               finest.first.y - steps(finest.first.y - box.low.y, net.step_m.y) * net.step_m.y};
+  net.columns = static_cast<std::size_t>(steps(box.high.x - net.first.x, net.step_m.x)) + 1;
+  net.rows = static_cast<std::size_t>(steps(box.high.y - net.first.y, net.step_m.y)) + 1;
+  net.height_m.resize(net.columns * net.rows);
+  return net;
+}
+
+/// What is a node of the tile is copied, and what is between them interpolated. No data covers nothing.
+void lay_upon(TerrainRaster& net, const TerrainRaster& tile) {
+  const double across = (tile.first.x - net.first.x) / net.step_m.x, up = (tile.first.y - net.first.y) / net.step_m.y;
+  const bool is_same = std::abs(tile.step_m.x / net.step_m.x - 1.0) * static_cast<double>(tile.columns) < same_node &&
+                       std::abs(tile.step_m.y / net.step_m.y - 1.0) * static_cast<double>(tile.rows) < same_node &&
+                       is_whole(across) && is_whole(up);
+  const auto within = [](double n, std::size_t count) {
+    return static_cast<std::size_t>(std::clamp(n, 0.0, static_cast<double>(count)));
+  };
+  const double width = static_cast<double>(tile.columns - 1) * tile.step_m.x / net.step_m.x,
+               height = static_cast<double>(tile.rows - 1) * tile.step_m.y / net.step_m.y;
+  const std::size_t left = within(std::ceil(across - same_node), net.columns),
+                    right = within(std::floor(across + width + same_node) + 1.0, net.columns),
+                    low = within(std::ceil(up - same_node), net.rows),
+                    high = within(std::floor(up + height + same_node) + 1.0, net.rows);
+  for (std::size_t row = low; row < high; ++row)
+    for (std::size_t column = left; column < right; ++column) {
+      const auto found = is_same ? tile.height_m[(row - low) * tile.columns + (column - left)]
+                                 : std::optional<float>(tile.height_at(net.node(column, row)));
+      if (found) net.height_m[row * net.columns + column] = found;
+    }
+}
+
+}  // namespace
+
+TerrainRaster merged(const std::vector<TerrainRaster>& tiles) {
+  TerrainRaster net = net_over(tiles);
+  for (const TerrainRaster& tile : tiles) {
+    lay_upon(net, tile);
+    net.notes.insert(net.notes.end(), tile.notes.begin(), tile.notes.end());
+  }
+  return net;
+}
+
+TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs, Georeference georeference,
+                           std::optional<Box2d> wanted_city, Report& report) {
+  if (files.size() == 1) return read_terrain(files.front(), fallback_crs, georeference, wanted_city, report);
+  std::vector<TerrainRaster> tiles;
+  for (const TerrainFile& file : files) {
+    auto tile = find_terrain(file, fallback_crs, georeference, wanted_city, report);
+    if (!tile) continue;
+    tiles.push_back(std::move(*tile));
+    const auto own = georeference.heights_wkt.empty() ? find_crs(read_terrain_extent(file).crs_wkt) : std::nullopt;
+    if (own && own->crs.heights_name()) georeference.heights_wkt = own->crs.whole_wkt();
+  }
+  if (tiles.empty())
+    throw InputError("none of the " + std::to_string(files.size()) + " files of --terrain covers the city, " +
+                     files.front().path.string() + " being the first: check their CRS");
+  return merged(tiles);
+}
+
+}  // namespace farlod::georeference

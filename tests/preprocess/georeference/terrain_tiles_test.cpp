@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gdal_priv.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "farlod/error.hpp"
+#include "georeference/crs.hpp"
+#include "georeference/georeference.hpp"
+#include "georeference/raster_reader.hpp"
+#include "tests/scenes/refusal.hpp"
+#include "tests/scenes/temporary_folder.hpp"
+
+namespace farlod::georeference {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Optional;
+
+class TerrainTiles : public testing::Test {
+ protected:
+  void SetUp() override { GDALAllRegister(); }
+
+  /// Two columns and two rows, the north row first.
+  [[nodiscard]] TerrainFile tile(const std::string& name, double x, double cell, const std::string& values) const {
+    std::ofstream(folder.file(name)) << "ncols 2\nnrows 2\nxllcorner " << x << "\nyllcorner 0\ncellsize " << cell
+                                     << "\nNODATA_value -9999\n"
+                                     << values;
+    return folder.file(name);
+  }
+  [[nodiscard]] TerrainRaster read(const std::vector<TerrainFile>& files, std::optional<Box2d> wanted = {}) {
+    return read_terrain(std::span(files), "", georeference_around({0.0, 0.0}, *Crs::find("EPSG:25832")), wanted, report);
+  }
+
+  const scenes::TemporaryFolder folder;
+  Report report;
+};
+
+TEST_F(TerrainTiles, BesideEachOtherAreOneTerrain) {
+  const TerrainRaster terrain = read({tile("a.asc", 0.0, 10.0, "3 4\n1 2\n"), tile("b.asc", 20.0, 10.0, "7 8\n5 6\n")});
+  EXPECT_EQ(terrain.columns, 4U);
+  EXPECT_EQ(terrain.rows, 2U);
+  EXPECT_EQ(terrain.first, (Point2d{5.0, 5.0}));
+  EXPECT_THAT(terrain.height_m, ElementsAre(Optional(1.0F), Optional(2.0F), Optional(5.0F), Optional(6.0F), Optional(3.0F),
+                                            Optional(4.0F), Optional(7.0F), Optional(8.0F)));
+}
+
+TEST_F(TerrainTiles, LaterOnesLieOnTopButForTheirNoData) {
+  const TerrainFile below = tile("below.asc", 0.0, 10.0, "3 4\n1 2\n"), above = tile("above.asc", 10.0, 10.0, "-9999 8\n5 6\n");
+  EXPECT_THAT(read({below, above}).height_m,
+              ElementsAre(Optional(1.0F), Optional(5.0F), Optional(6.0F), Optional(3.0F), Optional(4.0F), Optional(8.0F)));
+  EXPECT_THAT(read({above, below}).height_m[1], Optional(2.0F));
+}
+
+TEST_F(TerrainTiles, AreAsFineAsTheFinest) {
+  const TerrainRaster terrain =
+      read({tile("coarse.asc", 0.0, 20.0, "10 20\n10 20\n"), tile("fine.asc", 60.0, 10.0, "9 9\n9 9\n")});
+  EXPECT_EQ(terrain.step_m, (Point2d{10.0, 10.0}));
+  // Nodes lie at 5, 15, 25 … m: those of the coarse tile, at 10 and 30 m, are met in between alone
+  EXPECT_THAT(terrain.height_at({15.0, 15.0}), Optional(12.5));
+  EXPECT_THAT(terrain.height_m[terrain.columns - 1], Optional(9.0F));
+}
+
+TEST_F(TerrainTiles, MayLieElsewhereButNotAll) {
+  const TerrainFile here = tile("here.asc", 0.0, 10.0, "1 1\n1 1\n"), there = tile("there.asc", 1000.0, 10.0, "2 2\n2 2\n");
+  const Box2d wanted{{2.0, 2.0}, {18.0, 18.0}};
+  const TerrainRaster terrain = read({there, here}, wanted);
+  EXPECT_EQ(terrain.columns, 2U);
+  EXPECT_THAT(terrain.height_m, Each(Optional(1.0F)));
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] {
+                (void)read({there, there}, wanted);
+              }),
+              HasSubstr("none of the 2 files of --terrain covers the city"));
+}
+
+/// Pixels of 2 m, turned by the angle of a triangle 3 : 4 : 5. A wall of 10 m stands between the first two columns and the rest.
+class TurnedSurfaces : public TerrainTiles {
+ protected:
+  [[nodiscard]] TerrainFile model() const {
+    std::ofstream(folder.file("straight.asc"))
+        << "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\n10 10 0 0\n10 10 0 0\n";
+    std::ofstream(folder.file("turned.vrt"))
+        << R"(<VRTDataset rasterXSize="4" rasterYSize="2"><SRS>EPSG:25832</SRS>)"
+        << R"(<GeoTransform>500000, 1.6, 1.2, 5500000, 1.2, -1.6</GeoTransform>)"
+        << R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource><SourceFilename relativeToVRT="1">straight.asc)"
+        << "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    return folder.file("turned.vrt");
+  }
+};
+
+TEST_F(TurnedSurfaces, KeepsItsWallsUpright) {
+  const Georeference frame = georeference_of_terrain(model(), {});
+  const TerrainRaster terrain = read_terrain(model(), "", frame, std::nullopt, report);
+  EXPECT_TRUE(std::all_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height_m) {
+    return !height_m || *height_m == 0.0F || *height_m == 10.0F;
+  })) << "a height is of no pixel";
+  EXPECT_LT(terrain.step_m.x, 1.0) << "squares are finer than the pixels";
+  ASSERT_EQ(terrain.notes.size(), 1U);
+  EXPECT_THAT(terrain.notes[0], HasSubstr("since it is turned, it is read in squares of "));
+}
+
+TEST_F(TurnedSurfaces, AloneKeepsItsPixelsWhereTheyAre) {
+  const Georeference frame = georeference_of_terrain(model(), {});
+  const auto surface = read_turned_surface(model(), "", frame, report);
+  ASSERT_TRUE(surface.has_value());
+  ASSERT_EQ(surface->points_city.size(), 8U);
+  // Half a pixel to the right and down from the corner of the first one; all numbers are exact in binary but for 0.2
+  const Point2d first = Point2d{500000.0 + 0.8 + 0.6, 5500000.0 + 0.6 - 0.8} - frame.origin_m;
+  constexpr double rounding_m = 1e-8;
+  EXPECT_NEAR(surface->points_city[0].x, first.x, rounding_m);
+  EXPECT_NEAR(surface->points_city[0].y, first.y, rounding_m);
+  EXPECT_EQ(surface->points_city[0].z, 10.0);
+  EXPECT_EQ(surface->points_city[2].z, 0.0);
+  EXPECT_THAT(surface->note, HasSubstr("since it is turned"));
+  EXPECT_FALSE(read_turned_surface(tile("north.asc", 0.0, 2.0, "1 2\n3 4\n"), "EPSG:25832", frame, report).has_value());
+}
+
+TEST_F(TurnedSurfaces, BelowACityIsSmooth) {
+  const Georeference frame = georeference_of_terrain(model(), {});
+  const TerrainRaster terrain = read_terrain(model(), "", frame, Box2d{{-3.0, -3.0}, {3.0, 3.0}}, report);
+  EXPECT_TRUE(std::any_of(terrain.height_m.begin(), terrain.height_m.end(),
+                          [](const auto& height_m) { return height_m && *height_m > 1.0F && *height_m < 9.0F; }));
+  EXPECT_TRUE(terrain.notes.empty());
+}
+
+}  // namespace
+}  // namespace farlod::georeference
