@@ -157,7 +157,7 @@ struct SourceCity {
   std::vector<std::string> notes = {};  ///< for the user: what was taken from elsewhere, or guessed
   std::optional<PlacedFile> placed = {};
   FormatAdvice advice = {};
-  std::vector<std::string> owners_of_parts = {};  ///< ids of buildings, perhaps of other files, whose parts are among these
+  std::vector<std::string> owners_of_parts = {};   ///< ids of buildings, perhaps of other files, whose parts are among these
   std::vector<std::string> met_ground_names = {};  ///< of the user's (PackSettings::ground_names): those that something has
 };
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pack.hpp"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -221,6 +223,11 @@ class Packing {
       found = far_terrain::far_terrain_around(sources, settings_.georeference.crs, city, {}, report_, record_.result.notes,
                                               run_.stop);
     });
+    double farthest_m = 0.0;
+    for (const Point3f& p : found.vertices) farthest_m = std::max(farthest_m, std::hypot(double{p.x}, double{p.y}));
+    if (!found.empty())
+      record_.result.notes.push_back(fmt::format("Far terrain: {} triangles beyond the grid, up to {:.1f} km away.",
+                                                 found.triangles.size(), farthest_m / 1000.0));
     return found;
   }
 

@@ -129,8 +129,9 @@ TEST_F(FarTerrain, IsAskedWhatATerrainIs) {
   folder.write("far.asc", ascii_grid([](Point2d p) { return p.x > 1000.0 ? -32768.0 : 100.0; }, 100.0, 5000.0));
   pack("--terrain terrain.asc --far-terrain far.asc");
   EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("problems").at("211"), 1);
-  const auto outcome = folder.run("farlod-pack slab.geojson -o b.farlod --terrain terrain.asc --far-terrain far.asc --out-crs "
-                                  "EPSG:32633 --crs EPSG:32601");
+  const auto outcome = folder.run(
+      "farlod-pack slab.geojson -o b.farlod --terrain terrain.asc --far-terrain far.asc --out-crs "
+      "EPSG:32633 --crs EPSG:32601");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
 }
 

@@ -25,8 +25,7 @@ void ask_everything(const std::filesystem::path& folder) {
   const PackageFolder opened(folder);
   const FarTerrainFile file(opened, read_manifest(opened));
   const MeshView mesh = file.mesh();
-  for (const Triangle& t : mesh.triangles)
-    FARLOD_EXPECTS(std::max({t.a, t.b, t.c}) < mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) FARLOD_EXPECTS(std::max({t.a, t.b, t.c}) < mesh.vertices.size());
   const std::vector<PlacedMesh> placed{{mesh, {}}};
   const Occluder occluder = occluder_of(placed);
   (void)occluder.nearest({{0.0F, 0.0F, 0.0F}, {1.0F, 0.5F, 0.25F}});
