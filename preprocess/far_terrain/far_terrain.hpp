@@ -19,8 +19,8 @@ namespace farlod::far_terrain {
 /// How much of a terrain beyond the grid is kept.
 struct FarTerrainSettings {
   /// Heights are kept to within this share of their distance from the grid: a sine of the elevation, about.
-  double tolerance = 0.001;
-  double nearest_m = 100.0;              ///< what is nearer counts as this far away
+  double tolerance = 0.002;
+  double nearest_m = 250.0;              ///< what is nearer counts as this far away
   double farthest_m = 200e3;             ///< beyond it, nothing is read: a mountain of 3,000 m is below the horizon
   std::size_t most_triangles = 400'000;  ///< with more, the tolerance is doubled
 };

@@ -33,7 +33,7 @@ struct HorizonMapSettings {
   double weak_share = 0.6;
   /// The same two of the far terrain beyond the grid, both as sines: its ridges are long, so that what is wrong with the one half
   /// of a ridge is wrong with the other.
-  double far_terrain_tolerance = 0.005, weak_far_terrain = 0.001;
+  double far_terrain_tolerance = 0.01, weak_far_terrain = 0.002;
 };
 
 struct FarMapSettings {

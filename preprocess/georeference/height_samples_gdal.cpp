@@ -45,6 +45,13 @@ bool read_square(GDALRasterBand& band, const PixelLattice& l, int first, int col
                        &nearest) == CE_None;
 }
 
+/// GDAL keeps what it has read, up to a twentieth of the memory that there is, though squares are read once.
+void forget_old_blocks() {
+  constexpr GIntBig kept_bytes = GIntBig{16} << 20U;
+  while (GDALGetCacheUsed64() > kept_bytes && GDALFlushCacheBlock() != FALSE) {
+  }
+}
+
 /// How many nodes of a lattice a raster has along a side.
 int nodes_within(std::int64_t begin, const PixelLattice& l, std::int64_t count) {
   const std::int64_t step = l.step, last = count - begin + step / 2;
@@ -93,6 +100,7 @@ std::optional<double> HeightSamples::read(const PixelLattice& l, std::span<float
   if (!read_square(impl_->band(), l, first, columns, rows, numbers, false) ||
       !read_square(impl_->band(), l, first, columns, rows, mask, true))
     refuse_raster(impl_->raster.path, "cannot be read to its end");
+  forget_old_blocks();
   std::optional<double> stand_in;
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
     for (std::size_t n = row * l.nodes; n < row * l.nodes + static_cast<std::size_t>(columns); ++n) {

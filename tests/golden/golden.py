@@ -142,7 +142,7 @@ def check_other_versions(binaries: pathlib.Path, package: pathlib.Path) -> list[
     found = []
     manifest = manifest_of(package)
     del manifest["xxh3"]
-    for version in (*range(1, version_of("oldest_format_version")), version_of("format_version") + 1):
+    for version in (*range(1, version_of("oldest_format_version")), version_of("far_terrain_format_version") + 1):
         (package / "manifest.json").write_text(json.dumps(manifest | {"version": version}))
         table = package.parent / "o.csv"
         for program in (["farlod-info", package, "--check"], ["farlod-svf", package, "-o", table, "--at", "500001,5500022"]):

@@ -333,7 +333,9 @@ TEST_F(TerrainReader, TheyAreNotMixedIntoTheirNeighborsWhereARasterIsResampled) 
   const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}), std::nullopt, report);
   EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 -9999 is no height here")));
   for (const auto& height_m : terrain.height_m)
-    if (height_m) EXPECT_FLOAT_EQ(*height_m, 500.0F);
+    if (height_m) {
+      EXPECT_FLOAT_EQ(*height_m, 500.0F);
+    }
 }
 
 TEST_F(TerrainReader, APlaceThatCannotBeIsToldAsThatOfABuildingIs) {
