@@ -232,8 +232,8 @@ TEST(Pack, HousesThatKnowOnlyTheirHeightStandOnTheTerrain) {
   p.run();
   EXPECT_EQ(p.result.manifest.height_origin_m, 250.0);
   EXPECT_EQ(p.result.manifest.buildings, 3U);
-  EXPECT_THAT(p.stages_timed(), ElementsAre("inputs", "ingest", "georeference", "align", "terrain", "tiles", "city_index",
-                                            "far_maps", "package", "publish"));
+  EXPECT_THAT(p.stages_timed(), ElementsAre("inputs", "ingest", "georeference", "align", "terrain", "far_terrain", "tiles",
+                                            "city_index", "far_maps", "package", "publish"));
   ASSERT_EQ(p.result.manifest.inputs.size(), 2U);
   EXPECT_EQ(p.result.manifest.inputs[1].name, "dem.asc");
   EXPECT_EQ(p.result.manifest.inputs[1].stamp.bytes, std::string_view(plain_around_the_town).size());
@@ -247,9 +247,8 @@ TEST(Pack, ATerrainAloneIsACityWithoutBuildings) {
   p.run();
   EXPECT_EQ(p.result.manifest.buildings, 0U);
   EXPECT_GT(p.result.manifest.triangles, 0U);
-  EXPECT_THAT(p.stages_timed(),
-              ElementsAre("inputs", "georeference", "terrain", "align", "far_terrain", "tiles", "city_index", "far_maps", "package",
-                          "publish"));
+  EXPECT_THAT(p.stages_timed(), ElementsAre("inputs", "georeference", "terrain", "align", "far_terrain", "tiles", "city_index",
+                                            "far_maps", "package", "publish"));
 }
 
 }  // namespace
