@@ -317,12 +317,12 @@ void judge(const FarTerrainSource& source, const FarTerrainMaker::Found& found, 
 }
 
 /// The rasters around a city, and where they have heights.
-struct Surroundings {
+struct RastersAround {
   std::span<const FarTerrainSource> sources;
   std::vector<HeightSamples> rasters = {};
   std::vector<Coverage> coverages = {};
 
-  Surroundings(std::span<const FarTerrainSource> of, const std::string& fallback_crs, const CityGround& city, Report& report)
+  RastersAround(std::span<const FarTerrainSource> of, const std::string& fallback_crs, const CityGround& city, Report& report)
       : sources(of) {
     Report told;  // when the ground was read
     for (const FarTerrainSource& source : sources)
@@ -332,7 +332,7 @@ struct Surroundings {
 };
 
 /// Nothing where there are too many triangles.
-std::optional<FarTerrain> far_terrain_within(const Surroundings& around, const CityGround& city,
+std::optional<FarTerrain> far_terrain_within(const RastersAround& around, const CityGround& city,
                                              const FarTerrainSettings& settings, Report& report, const std::stop_token& stop) {
   FarTerrainMaker maker(city, settings, stop);
   Report found;
@@ -354,7 +354,7 @@ double sinking_m(double distance_m) {
 FarTerrain far_terrain_around(std::span<const FarTerrainSource> sources, const std::string& fallback_crs, const CityGround& city,
                               const FarTerrainSettings& settings, Report& report, std::vector<std::string>& notes,
                               const std::stop_token& stop) {
-  const Surroundings around(sources, fallback_crs, city, report);
+  const RastersAround around(sources, fallback_crs, city, report);
   FarTerrainSettings coarser = settings;
   for (;; coarser.tolerance *= 2.0) {
     auto far_terrain = far_terrain_within(around, city, coarser, report, stop);
