@@ -323,18 +323,22 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-void resolve(const RawOptions& raw, PackOptions& o) {
-  PackSettings& s = o.settings;
+void resolve_inputs(const RawOptions& raw, PackSettings& s) {
   for (const std::string& input : raw.inputs) s.inputs.emplace_back(input == "-" ? "/dev/stdin" : input);
-  if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
-  s.output = raw.output;
-  s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
-  s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   s.terrain.assign(raw.terrain.begin(), raw.terrain.end());
   for (const std::string& file : raw.far_terrains) {
     require_name(file, "--far-terrain");
     s.far_terrains.emplace_back(file);
   }
+}
+
+void resolve(const RawOptions& raw, PackOptions& o) {
+  PackSettings& s = o.settings;
+  resolve_inputs(raw, s);
+  if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
+  s.output = raw.output;
+  s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
+  s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   resolve_trees(raw, s.trees);
   if (raw.area) s.area = area_in(*raw.area);
   if (!raw.shard.empty()) s.shard = shard_in(raw.shard);

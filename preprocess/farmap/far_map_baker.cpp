@@ -27,15 +27,7 @@ FarHeightBound::FarHeightBound(const TileSet& tiles, const Grid& grid) : grid_(g
     for (const Point3f& p : tiles.tiles[n].vertices) prism.outline_grid.add(corner + Point2d{p.x, p.y});
     tiles_.push_back(prism);
   }
-  const Point2d origin_grid = grid.middle_corner();
-  for (const Triangle& t : tiles.far_terrain.triangles) {
-    Prism& prism = far_terrain_.emplace_back(Prism{{}, -std::numeric_limits<float>::infinity()});
-    for (const std::uint32_t v : {t.a, t.b, t.c}) {
-      const Point3f& p = tiles.far_terrain.vertices[v];
-      prism.outline_grid.add(origin_grid + Point2d{p.x, p.y});
-      prism.height_m = std::max(prism.height_m, p.z);
-    }
-  }
+  add_far_terrain(tiles.far_terrain);
   for (const Block block : grid.blocks()) {
     BlockPrism b{{{}, -std::numeric_limits<float>::infinity()}, grid.cells_of(block)};
     for (std::size_t n = 0; n < static_cast<std::size_t>(b.cells.size()); ++n) {
@@ -46,6 +38,18 @@ FarHeightBound::FarHeightBound(const TileSet& tiles, const Grid& grid) : grid_(g
       b.prism.outline_grid.add(tile.outline_grid.high);
     }
     blocks_.push_back(b);
+  }
+}
+
+void FarHeightBound::add_far_terrain(const FarTerrain& far_terrain) {
+  const Point2d origin_grid = grid_.middle_corner();
+  for (const Triangle& t : far_terrain.triangles) {
+    Prism& prism = far_terrain_.emplace_back(Prism{{}, -std::numeric_limits<float>::infinity()});
+    for (const std::uint32_t v : {t.a, t.b, t.c}) {
+      const Point3f& p = far_terrain.vertices[v];
+      prism.outline_grid.add(origin_grid + Point2d{p.x, p.y});
+      prism.height_m = std::max(prism.height_m, p.z);
+    }
   }
 }
 

@@ -37,6 +37,7 @@ class FarHeightBound {
     Prism prism;
     CellRange cells;
   };
+  void add_far_terrain(const FarTerrain& far_terrain);
   [[nodiscard]] static double slope(const Prism& prism, Point2d centre_grid, float capture_height_m);
 
   const Grid& grid_;

@@ -108,7 +108,7 @@ class OcclusionCuller {
   bool cull_node(const CityHorizon::Node& node, double distance_m);
   void visit_leaf(const CityHorizon::Node& leaf, double distance_m);
   [[nodiscard]] bool faces_away(const OccluderEdge& occluder) const;
-  /// Of the current occluders.
+  /// Those of the current occluders.
   [[nodiscard]] Thresholds& thresholds() { return is_far_terrain_ ? of_far_terrain_ : of_city_; }
   void update_leaf_bound(const BinRange& range);
   [[nodiscard]] bool is_below_leaf_bound(const OccluderEdge& occluder) const;

@@ -104,6 +104,15 @@ void require_city_size(const InputFile& file) {
     if (stream->eof()) break;
 }
 
+/// Throws InputError for what is no city by itself.
+void require_readable(const InputFile& file, FileFormat format) {
+  if (format == FileFormat::archive)
+    throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
+  if (format == FileFormat::raster) throw InputError(file.name + " is a raster among other files: give it with --terrain.");
+  if (format == FileFormat::only_by_name)
+    throw InputError(file.name + " is of a format that may name other files: give it by its own name, unpacked.");
+}
+
 SourceCity read_as(FileFormat format, const InputFile& file, const IngestSettings& settings, Report& report,
                    const std::stop_token& stop) {
   switch (format) {
@@ -122,15 +131,13 @@ SourceCity read_as(FileFormat format, const InputFile& file, const IngestSetting
     case FileFormat::palm_driver:
       return read_palm_driver(file, report);
     case FileFormat::archive:
-      throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
     case FileFormat::raster:
-      throw InputError(file.name + " is a raster among other files: give it with --terrain.");
     case FileFormat::only_by_name:
-      throw InputError(file.name + " is of a format that may name other files: give it by its own name, unpacked.");
     case FileFormat::features:
     case FileFormat::unknown:
       break;
   }
+  require_readable(file, format);
   require_city_size(file);
   return read_footprints(file, settings.footprints, report);
 }

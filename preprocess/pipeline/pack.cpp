@@ -211,7 +211,7 @@ class Packing {
   FarTerrain far_terrain_around(const Georeference& place, const std::vector<georeference::TerrainFile>& terrain,
                                 const tiles::Ground& ground, double height_origin_m) {
     std::vector<far_terrain::FarTerrainSource> sources;
-    // Of the tiles of the terrain, the last lies on top
+    // The last tile of the terrain lies on top
     for (auto tile = terrain.rbegin(); tile != terrain.rend(); ++tile)
       sources.push_back({*tile, settings_.terrain_offset_m, true});
     for (const std::filesystem::path& file : settings_.far_terrains) sources.push_back({file});

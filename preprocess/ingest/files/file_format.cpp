@@ -131,7 +131,9 @@ constexpr InputFormat formats[] = {
      .endings = {{{".city.json"}, {".cityjson"}, {".json", true, true}, {".jsonl", true}}},
      // A pipe cannot be read before it is read
      .is_this = [](const FileBeginning& b) { return !b.file.pipe && b.text.starts_with('{') && is_cityjson(b.file); },
-     .advice = {.scale = "CityJSON multiplies its vertices by \"transform\", which may be missing."}},
+     .advice = {.scale =
+                    "CityJSON multiplies its vertices by \"transform\", which may be missing: add it, for millimetres with a "
+                    "\"scale\" of 0.001."}},
     {.format = FileFormat::obj,
      .name = "OBJ",
      .endings = {{{".obj"}}},

@@ -38,7 +38,7 @@ class FeatureTable {
     [[nodiscard]] FieldValue value(std::size_t field) const;
     [[nodiscard]] std::optional<std::string> tag(std::string_view name) const;
     [[nodiscard]] FeatureRole role() const;
-    /// Of a part, the id of its building, where the table tells it.
+    /// The id of the building that a part is of, where the table tells it.
     [[nodiscard]] std::optional<std::string> owner() const {
       return role() == FeatureRole::part ? tag("building_id") : std::nullopt;
     }

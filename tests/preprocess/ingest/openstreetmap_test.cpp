@@ -99,7 +99,7 @@ TEST(OpenStreetMap, PartsStandForTheirOutline) {
 TEST(Overture, BuildingsHavePartsAndSomeAreUnderground) {
   const auto overture = [](const std::string& properties, double x) { return feature(properties, "Polygon", square_at(x, 0.0)); };
   const Reading r = read_tagged({overture(R"("id":"a","height":30,"has_parts":true,"is_underground":false)", 0),
-                                 overture(R"("id":"b","building_id":"a","height":8)", 0),
+                                 overture(R"("id":"b","building_id":"a","is_underground":false,"height":8)", 0),
                                  overture(R"("id":"c","height":5,"has_parts":false,"is_underground":true)", 20),
                                  overture(R"("id":"d","num_floors":2,"has_parts":false,"is_underground":false)", 40)});
   EXPECT_THAT(extents(r), ElementsAre(Pair("b", Pair(0.0, 8.0)), Pair("d", Pair(0.0, 6.0))));
@@ -118,11 +118,14 @@ TEST(Overture, PartsInAnotherFileStandForTheirOutlines) {
   const auto outlines =
       write("building.geojson", {feature(R"("id":"a","has_parts":true,"height":60)", "Polygon", square_at(0, 0)),
                                  feature(R"("id":"b","has_parts":false,"height":9)", "Polygon", square_at(20, 0))});
-  const auto parts = write("building_part.geojson",
-                           {feature(R"("id":"p","building_id":"a","height":12)", "Polygon", square_at(0, 0)),
-                            feature(R"("id":"q","building_id":"a","height":60,"min_height":12)", "Polygon", square_at(2, 2, 3))});
+  const auto parts =
+      write("building_part.geojson",
+            {feature(R"("id":"p","building_id":"a","is_underground":false,"height":12)", "Polygon", square_at(0, 0)),
+             feature(R"("id":"q","building_id":"a","is_underground":false,"height":60,"min_height":12)", "Polygon",
+                     square_at(2, 2, 3))});
   Report report;
   const std::vector<SourceCity> cities = ingest_all(std::vector<InputFile>{outlines, parts}, {}, report);
+  ASSERT_THAT(report.problems(), IsEmpty());
   ASSERT_EQ(cities.size(), 2U);
   ASSERT_EQ(cities[0].city.buildings().size(), 1U);
   EXPECT_EQ(cities[0].city.buildings()[0].id, "b");
