@@ -75,11 +75,22 @@ std::string country_in(std::string_view area_name) {
   return is_list || is_zone || is_continent ? "" : std::string(name);
 }
 
+namespace {
+
+/// Datums on the ellipsoids GRS 80 and WGS 84 lie around the middle of the Earth, and differ by a few metres. PROJ searches a
+/// tenth of a second for some of these shifts.
+bool is_geocentric(const Crs& crs) {
+  const Ellipsoid ellipsoid = crs.ellipsoid();
+  return ellipsoid.semi_major_m == 6378137.0 && std::abs(ellipsoid.inverse_flattening - 298.2572) < 1e-4;
+}
+
+}  // namespace
+
 PlaceOnEarth place_of(const Georeference& georeference) {
   const auto crs = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(crs.has_value());
   const Point2d middle = georeference.origin_m;
-  PlaceOnEarth place{make_transformation(*crs, middle).apply(middle), ""};
+  PlaceOnEarth place{is_geocentric(*crs) ? crs->lon_lat_deg(middle) : make_transformation(*crs, middle).apply(middle), ""};
   if (place.lon_lat_deg && !is_on_earth(*place.lon_lat_deg)) place.lon_lat_deg.reset();
   const auto area = crs->area_of_use();
   if (place.lon_lat_deg && area && area->contains(*place.lon_lat_deg)) place.country = country_in(crs->area_name());

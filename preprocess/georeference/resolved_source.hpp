@@ -65,7 +65,7 @@ class ProblemLocator {
 
 /// Where a city lies, for people.
 struct PlaceOnEarth {
-  std::optional<Point2d> lon_lat_deg;  ///< WGS 84
+  std::optional<Point2d> lon_lat_deg;  ///< WGS 84, to within some metres
   std::string country;                 ///< that the CRS is meant for, where the city lies there; empty where it is not for one
 };
 

@@ -73,7 +73,8 @@ class CityReading {
     require_usable();
     const align::GridSettings grid = choose_settings();
     read_.ground = lay_grid(grid, report_, run_stage_);
-    read_.terrain_files = std::move(files_.terrain);
+    // The grid of a terrain alone covers all of it
+    if (!read_.located.city.buildings().empty()) read_.terrain_files = std::move(files_.terrain);
     if (const auto& terrain = read_.ground.terrain)
       read_.notes.insert(read_.notes.end(), terrain->notes.begin(), terrain->notes.end());
     return std::move(read_);

@@ -47,7 +47,7 @@ struct GridOnGround {
 struct ReadCity {
   LocatedCity located;
   GridOnGround ground;
-  std::vector<georeference::TerrainFile> terrain_files;  ///< of which the ground is a part
+  std::vector<georeference::TerrainFile> terrain_files;  ///< of which the ground is a part, and not all
   FarMapSettings far_map;
   bool is_chosen = false;          ///< cells, neighborhood and tolerance were to be chosen
   std::optional<GridChoice> best;  ///< and this is the choice; none where nothing keeps the error

@@ -247,8 +247,8 @@ TEST(Pack, ATerrainAloneIsACityWithoutBuildings) {
   p.run();
   EXPECT_EQ(p.result.manifest.buildings, 0U);
   EXPECT_GT(p.result.manifest.triangles, 0U);
-  EXPECT_THAT(p.stages_timed(), ElementsAre("inputs", "georeference", "terrain", "align", "far_terrain", "tiles", "city_index",
-                                            "far_maps", "package", "publish"));
+  EXPECT_THAT(p.stages_timed(),
+              ElementsAre("inputs", "georeference", "terrain", "align", "tiles", "city_index", "far_maps", "package", "publish"));
 }
 
 }  // namespace
