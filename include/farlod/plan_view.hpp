@@ -39,4 +39,13 @@ struct BuildingOutlines {
 [[nodiscard]] FARLOD_EXPORT std::vector<float> ground_heights(const Package& package, const RasterPlan& plan,
                                                               const RunSettings& run = {});
 
+/// Heights above sea level at the pixel centres of a raster, row by row from the north; NaN where there is nothing.
+struct PlanHeights {
+  std::vector<float> ground_m;
+  std::vector<float> highest_m;  ///< of the highest surface: a roof, a bridge, or the ground
+};
+
+/// Looks both up at once. Throws what ground_heights throws.
+[[nodiscard]] FARLOD_EXPORT PlanHeights plan_heights(const Package& package, const RasterPlan& plan, const RunSettings& run = {});
+
 }  // namespace farlod

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 
+#include "app/city_scenery.hpp"
 #include "app/info_options.hpp"
 #include "app/package_facts.hpp"
 #include "console/run_program.hpp"
@@ -74,6 +75,14 @@ void draw_neighborhood(const Package& package, const PackageFacts& facts, const 
   write_drawing(draw_cell(scenery), options.picture_file);
 }
 
+void draw_city_of(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
+  ProgressLine progress("plan", options.run.verbosity);
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
+  write_drawing(draw_city(city_scenery(package, facts, options.report_file, run)), options.picture_file);
+}
+
 int run(const InfoOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   for (const std::filesystem::path& file :
@@ -83,7 +92,7 @@ int run(const InfoOptions& options) {
   const Package package(options.package);
   const PackageFacts facts = facts_of(package, options);
   if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
-  if (!options.picture_file.empty()) draw_neighborhood(package, facts, options);
+  if (!options.picture_file.empty()) (options.cell ? draw_neighborhood : draw_city_of)(package, facts, options);
   const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
   write_text(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
   if (options.json)

@@ -18,27 +18,28 @@ namespace farlod {
 namespace {
 
 ProgramDescription info_program() {
-  return {
-      .name = "farlod-info",
-      .purpose = "tells what a package of farlod-pack holds, and whether it is whole",
-      .examples = {"farlod-info town.farlod", "farlod-info town.farlod --check",
-                   "farlod-info town.farlod --cell 3,2 --png cell.png --obj cell.obj"},
-      .background = {"A package holds a city cut into cells, and for each cell what matters of the city far away. The manifest "
-                     "tells what was packed, how, and what was wrong with it; --check reads all the rest, too.",
-                     "The picture of a cell shows its neighborhood from above, and beside it the far map: the horizon that the "
-                     "city beyond the neighborhood has in the middle of the cell."},
-      .exit_codes = {{exit_done, "done"},
-                     {exit_internal, "an internal error"},
-                     {exit_usage, "a wrong command line"},
-                     {exit_unusable_input, "an input cannot be read or used"},
-                     {exit_damaged_package, "a damaged package"},
-                     {exit_limit_reached, "a limit was reached"}},
-      .licence = "Apache-2.0"};
+  return {.name = "farlod-info",
+          .purpose = "tells what a package of farlod-pack holds, and whether it is whole",
+          .examples = {"farlod-info town.farlod", "farlod-info town.farlod --check", "farlod-info town.farlod --png city.png",
+                       "farlod-info town.farlod --cell 3,2 --png cell.png --obj cell.obj"},
+          .background =
+              {"A package holds a city cut into cells, and for each cell what matters of the city far away. The manifest "
+               "tells what was packed, how, and what was wrong with it; --check reads all the rest, too.",
+               "The picture of a city shows it from above: heights of buildings, the ground, the grid, a scale and where it "
+               "lies. The picture of a cell shows its neighborhood from above, and beside it the far map: the horizon that the "
+               "city beyond the neighborhood has in the middle of the cell."},
+          .exit_codes = {{exit_done, "done"},
+                         {exit_internal, "an internal error"},
+                         {exit_usage, "a wrong command line"},
+                         {exit_unusable_input, "an input cannot be read or used"},
+                         {exit_damaged_package, "a damaged package"},
+                         {exit_limit_reached, "a limit was reached"}},
+          .licence = "Apache-2.0"};
 }
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, cell, obj, picture;
+  std::string package, cell, obj, picture, report;
 };
 
 void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
@@ -50,7 +51,13 @@ void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--png", raw.picture,
-                 "Draw --cell from above, and its far map, as this picture (PNG, or SVG or PDF by its ending)")
+                 "Draw the city from above, or --cell and its far map, as this picture (PNG, or SVG or PDF by its ending)")
+      ->type_name(file_value)
+      ->group("Output");
+  app.add_option(
+         "--report", raw.report,
+         "Mark the places of this report of farlod-pack (--report FILE.geojson), or of any file of points, in the picture "
+         "of the city")
       ->type_name(file_value)
       ->group("Output");
 }
@@ -79,8 +86,10 @@ void resolve(const RawOptions& raw, InfoOptions& o) {
     o.cell = cell_in(raw.cell);
     if (!o.cell) throw CLI::ValidationError("--cell", "\"" + raw.cell + "\" is not of the form I,J");
   }
-  for (const auto& [name, file] : {std::pair{"--obj", o.obj_file}, {"--png", o.picture_file}})
-    if (!file.empty() && !o.cell) throw CLI::ValidationError(name, "it goes with --cell");
+  o.report_file = raw.report;
+  if (!raw.obj.empty() && !o.cell) throw CLI::ValidationError("--obj", "it goes with --cell");
+  if (!raw.report.empty() && (raw.picture.empty() || o.cell))
+    throw CLI::ValidationError("--report", "it goes with --png, and without --cell");
   if (!raw.picture.empty() && !is_picture(o.picture_file))
     throw CLI::ValidationError("--png", "\"" + raw.picture + "\" is not the name of a picture: choose one of " +
                                             endings_where([](const OutputFormat& f) { return f.is_picture; }));

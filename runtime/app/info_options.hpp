@@ -15,7 +15,8 @@ struct InfoOptions {
   std::filesystem::path package;
   bool json = false, check = false;
   std::optional<CellPlace> cell;
-  std::filesystem::path obj_file, picture_file;  ///< of the cell; perhaps empty
+  std::filesystem::path obj_file, picture_file;  ///< of the cell, or the picture of the city; perhaps empty
+  std::filesystem::path report_file;             ///< of problems, for the picture of the city; perhaps empty
   RunOptions run;
 };
 

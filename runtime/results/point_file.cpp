@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/point_file.hpp"
 
+#include <tuple>
+#include <utility>
+#include <vector>
+
 #include "base/lower_case.hpp"
 #include "inputs/point_reader.hpp"
 #ifdef FARLOD_WITH_GDAL
@@ -25,6 +29,19 @@ RequestedPoints read_point_file(const std::filesystem::path& file, const std::st
 #endif
   if (!layer.empty()) throw PointsError(file.string() + " is a table: it has no layers (--points-layer)");
   return read_points_csv(file);
+}
+
+RequestedPoints read_points_in([[maybe_unused]] const std::string& crs_wkt, const std::filesystem::path& file) {
+  RequestedPoints read = read_point_file(file, "", true);
+#ifdef FARLOD_WITH_GDAL
+  if (read.crs_wkt.value_or("").empty()) return read;
+  std::vector<Point2d> places;
+  for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
+  places = gdal_files().reprojected(places, *read.crs_wkt, crs_wkt);
+  for (std::size_t n = 0; n < places.size(); ++n)
+    std::tie(read.points[n].x, read.points[n].y) = std::pair(places[n].x, places[n].y);
+#endif
+  return read;
 }
 
 }  // namespace farlod

@@ -153,6 +153,33 @@ void require_usable_view(const RasterPlan& plan) {
     throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
 }
 
+/// Which heights are looked up.
+enum class Wanted : std::uint8_t { ground, ground_and_highest };
+
+PlanHeights heights_in(const Package& package, const RasterPlan& plan, const RunSettings& run, Wanted wanted) {
+  require_usable(run);
+  require_usable_view(plan);
+  const PackageInUse in_use(package);
+  const PackageReader& reader = in_use.reader();
+  const std::size_t count = plan.columns * plan.rows, highest = wanted == Wanted::ground ? 0 : count;
+  require_memory(run, static_cast<double>((count + highest) * sizeof(float) + bytes_of_blocks_at_work(reader.manifest())),
+                 "looking up heights", smaller_part);
+  PlanHeights heights{std::vector<float>(count, std::numeric_limits<float>::quiet_NaN()),
+                      std::vector<float>(highest, std::numeric_limits<float>::quiet_NaN())};
+  const RasterReceivers pixels(reader.manifest(), plan);
+  const std::vector<Cell> cells = pixels.cells();
+  const auto origin_m = static_cast<float>(reader.manifest().height_origin_m);
+  for_each_cell(cells.size(), run, "heights", [&](std::size_t n) {
+    // Each pixel is of one cell alone
+    pixels.for_each_profile(reader, cells[n], run.stop, [&](std::size_t pixel, const VerticalProfile& profile) {
+      if (const auto ground_m = profile.ground_m()) heights.ground_m[pixel] = *ground_m + origin_m;
+      if (highest == 0) return;
+      if (const auto highest_m = profile.highest_m()) heights.highest_m[pixel] = *highest_m + origin_m;
+    });
+  });
+  return heights;
+}
+
 }  // namespace
 
 std::optional<BuildingOutlines> building_outlines(const Package& package, const Box2d& part, std::size_t most_segments,
@@ -178,24 +205,11 @@ std::optional<BuildingOutlines> building_outlines(const Package& package, const 
 }
 
 std::vector<float> ground_heights(const Package& package, const RasterPlan& plan, const RunSettings& run) {
-  require_usable(run);
-  require_usable_view(plan);
-  const PackageInUse in_use(package);
-  const PackageReader& reader = in_use.reader();
-  const std::size_t count = plan.columns * plan.rows;
-  require_memory(run, static_cast<double>(count * sizeof(float) + bytes_of_blocks_at_work(reader.manifest())),
-                 "looking up the ground", smaller_part);
-  std::vector<float> heights(count, std::numeric_limits<float>::quiet_NaN());
-  const RasterReceivers pixels(reader.manifest(), plan);
-  const std::vector<Cell> cells = pixels.cells();
-  const auto origin_m = static_cast<float>(reader.manifest().height_origin_m);
-  for_each_cell(cells.size(), run, "ground", [&](std::size_t n) {
-    // Each pixel is of one cell alone
-    pixels.for_each_profile(reader, cells[n], run.stop, [&](std::size_t pixel, const VerticalProfile& profile) {
-      if (const auto ground_m = profile.ground_m()) heights[pixel] = *ground_m + origin_m;
-    });
-  });
-  return heights;
+  return heights_in(package, plan, run, Wanted::ground).ground_m;
+}
+
+PlanHeights plan_heights(const Package& package, const RasterPlan& plan, const RunSettings& run) {
+  return heights_in(package, plan, run, Wanted::ground_and_highest);
 }
 
 }  // namespace farlod

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "farlod/error.hpp"
@@ -118,20 +117,6 @@ ResultRequest parsed(const std::string& request) {
   return {request.substr(0, colon), request.substr(colon + 1)};
 }
 
-/// The points of a file, in the CRS of the package.
-RequestedPoints read_points(const std::filesystem::path& file, [[maybe_unused]] const std::string& package_crs) {
-  RequestedPoints read = read_point_file(file, "", true);
-#ifdef FARLOD_WITH_GDAL
-  if (read.crs_wkt.value_or("").empty()) return read;
-  std::vector<Point2d> places;
-  for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
-  places = gdal_files().reprojected(places, *read.crs_wkt, package_crs);
-  for (std::size_t n = 0; n < places.size(); ++n)
-    std::tie(read.points[n].x, read.points[n].y) = std::pair(places[n].x, places[n].y);
-#endif
-  return read;
-}
-
 /// Keeps each n-th, so that there are no more than `most`.
 void thin(RequestedPoints& read, std::size_t most) {
   const std::size_t step = (read.points.size() + most - 1) / most;
@@ -203,7 +188,7 @@ void label_problems(RequestedPoints& read, ResultLayer& layer) {
 }
 
 ResultLayer layer_of_points(const ResultRequest& request, const Package& package, const ViewFrame& frame) {
-  RequestedPoints read = read_points(request.file, package.description().crs_wkt);
+  RequestedPoints read = read_points_in(package.description().crs_wkt, request.file);
   ResultLayer layer{.name = request.file.filename().string(), .count = read.points.size()};
   thin(read, most_points_of_layer);
   const bool has_fields_of_report = column_of(read.attributes.names(), "problem") && column_of(read.attributes.names(), "effect");

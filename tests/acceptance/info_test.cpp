@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <regex>
 
 #include "farlod/error.hpp"
@@ -174,6 +175,47 @@ TEST_F(Info, PicturesOfACell) {
   }
 }
 
+/// The largest picture of all: its places are those of the report, whatever CRS it is in.
+TEST_F(Info, PictureOfTheCity) {
+  for (const std::string ending : {".png", ".svg", ".pdf"}) {
+    const std::string draw = "farlod-info a.farlod --quiet --png ";
+    folder.must(draw + "one" + ending + " --threads 1");
+    folder.must(draw + "two" + ending + " --threads 3");
+    EXPECT_GT(folder.text_of("one" + ending).size(), 10'000U);
+    EXPECT_TRUE(folder.text_of("one" + ending) == folder.text_of("two" + ending)) << ending;
+  }
+  EXPECT_THAT(folder.text_of("one.svg"), HasSubstr("<title>Plan of a.farlod</title>"));
+}
+
+/// Pixels of two pictures that differ to the eye, above what stands below the maps.
+std::size_t differences(const RasterFile& a, const RasterFile& b) {
+  constexpr std::size_t footer_rows = 160;
+  constexpr double visible = 40.0;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < a.columns * (a.rows - footer_rows); ++n) count += std::abs(*a.values[n] - *b.values[n]) > visible;
+  return count;
+}
+
+TEST_F(Info, MarksTheReportInThePictureOfTheCity) {
+  folder.write("odd.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}},
+    "features": [{"type": "Feature", "properties": {"height": 9}, "geometry": {"type": "Polygon", "coordinates": [
+    [[500000, 5500000], [500010, 5500000], [500010, 5500010], [500000, 5500010], [500000, 5500000]],
+    [[500050, 5500030], [500060, 5500030], [500060, 5500040], [500050, 5500030]]]}}]})");
+  folder.must("farlod-pack town.geojson odd.geojson -o b.farlod --quiet --report problems.geojson");
+  ASSERT_THAT(folder.text_of("problems.geojson"), HasSubstr("hole_outside"));
+  // The same place in the CRS of the package
+  folder.write("place.csv", "x,y\n500050,5500030\n");
+  const auto picture = [&](const std::string& name, const std::string& arguments) {
+    folder.must("farlod-info b.farlod --quiet --png " + name + ".png " + arguments);
+    folder.write(name + ".pgw", "1\n0\n0\n-1\n0\n0\n");
+    return raster(name + ".png");
+  };
+  const RasterFile plain = picture("plain", ""), report = picture("report", "--report problems.geojson"),
+                   place = picture("place", "--report place.csv");
+  EXPECT_GT(differences(plain, place), 40U) << "a disc of four pixels";
+  EXPECT_LT(differences(report, place), 10U) << "the two are less than a tenth of a pixel apart";
+}
+
 TEST_F(Info, RefusesInOneLine) {
   for (const auto& [name, arguments, exit_code, said] :
        {unusable("", "lost.farlod", {"lost.farlod is not a package"}), wrong_usage("", "", {"PACKAGE is required"}),
@@ -181,8 +223,10 @@ TEST_F(Info, RefusesInOneLine) {
         wrong_usage("", "a.farlod --cell 1,2,3", {"--cell", "I,J"}), wrong_usage("", "a.farlod --cell 1,x", {"--cell", "I,J"}),
         unusable("", "a.farlod --cell 99,0", {"a.farlod has no cell 99,0: i goes from"}),
         wrong_usage("", "a.farlod --obj o.obj", {"--obj", "it goes with --cell"}),
-        wrong_usage("", "a.farlod --png o.png", {"--png", "it goes with --cell"}),
         wrong_usage("", "a.farlod --cell 0,0 --png o.jpg", {"--png", "o.jpg", ".png, .svg, .pdf"}),
+        wrong_usage("", "a.farlod --report r.geojson", {"--report", "it goes with --png, and without --cell"}),
+        wrong_usage("", "a.farlod --cell 0,0 --png o.png --report r.geojson", {"--report", "without --cell"}),
+        unusable("", "a.farlod --png o.png --report lost.geojson", {"lost.geojson"}),
         unusable("", "a.farlod --cell 0,0 --obj lost/o.obj", {"lost/o.obj", "no folder lost"}),
         unusable("", "a.farlod --summary lost/s.json", {"no folder lost"}),
         wrong_usage("", "a.farlod --threads 0", {"--threads", "1 to 4096"})}) {

@@ -238,8 +238,8 @@ class ChangedPackage : public testing::Test {
     return {};
   }
   void expect_refused(const std::string& name) {
-    for (const Named& named :
-         {points_into, points, tiles, raster, window, surfaces, cell_contents, geometry, far_view, outlines, heights})
+    for (const Named& named : {points_into, points, tiles, raster, window, surfaces, cell_contents, geometry, far_view, outlines,
+                               heights, plan_of_heights})
       EXPECT_THAT(scenes::refusal_of<PackageDamaged>([&] { named.call(arguments_); }),
                   testing::AllOf(HasSubstr(name), HasSubstr("open the package again")))
           << named.name;

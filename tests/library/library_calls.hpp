@@ -83,6 +83,7 @@ inline const Named geometry{"geometry", [](Arguments& a) { (void)geometry_of(a.p
 inline const Named far_view{"far view", [](Arguments& a) { (void)far_view_of(a.package, a.cell); }};
 inline const Named outlines{"outlines", [](Arguments& a) { (void)building_outlines(a.package, a.part, a.most_segments, a.run); }};
 inline const Named heights{"heights", [](Arguments& a) { (void)ground_heights(a.package, a.plan, a.run); }};
+inline const Named plan_of_heights{"plan heights", [](Arguments& a) { (void)plan_heights(a.package, a.plan, a.run); }};
 inline const Named description{"description", [](Arguments& a) { (void)a.package.description(); }};
 
 }  // namespace farlod::library

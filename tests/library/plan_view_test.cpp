@@ -140,6 +140,29 @@ TEST(GroundHeights, AreThoseOnWhichReceiversStand) {
   EXPECT_GT(compared, heights.size() / 4);
 }
 
+/// The highest surface is a roof over the house, 8 m above the ground, and else the ground.
+TEST(PlanHeights, AreThoseOfRoofsAndGround) {
+  const LShapedHouse house;
+  const Package package = house.open();
+  const RasterPlan plan{town_corner + Point2d{-2.0, 42.0}, 4.0, 11, 11};
+  const PlanHeights heights = plan_heights(package, plan);
+  ASSERT_EQ(heights.highest_m.size(), plan.columns * plan.rows);
+  const std::vector<float> ground_m = ground_heights(package, plan);
+  std::size_t roofs = 0;
+  for (std::size_t n = 0; n < heights.highest_m.size(); ++n) {
+    if (std::isnan(ground_m[n])) continue;
+    EXPECT_EQ(heights.ground_m[n], ground_m[n]);
+    const Point2d q = plan.centre_m(n % plan.columns, n / plan.columns) - town_corner;
+    const bool is_on_border = std::min({std::abs(q.x), std::abs(q.x - 20.0), std::abs(q.x - 40.0), std::abs(q.y),
+                                        std::abs(q.y - 20.0), std::abs(q.y - 40.0)}) < 0.01;
+    if (is_on_border) continue;
+    const bool is_house = 0.0 < q.x && q.x < 40.0 && 0.0 < q.y && q.y < 40.0 && !(q.x > 20.0 && q.y > 20.0);
+    EXPECT_NEAR(heights.highest_m[n] - heights.ground_m[n], is_house ? 8.0F : 0.0F, rounding_m) << q.x << ' ' << q.y;
+    roofs += is_house ? 1 : 0;
+  }
+  EXPECT_GT(roofs, 50U);
+}
+
 class Windows : public testing::Test {
  protected:
   Package package_{PackedSample::shared().folder()};

@@ -118,7 +118,7 @@ void add_limits(Cases& cases) {
 }
 
 void add_runs(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces, check, outlines, heights};
+  const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces, check, outlines, heights, plan_of_heights};
   cases.add(all, "too many threads", [](Arguments& a) { a.run.threads = 5000; });
   cases.add(all, "a limit of nothing", [](Arguments& a) { a.run.memory_limit_mib = 0; });
   cases.add(all, "an absurd limit", [](Arguments& a) { a.run.memory_limit_mib = 1ULL << 60; });
@@ -138,8 +138,9 @@ void add_runs(Cases& cases) {
 }
 
 void add_closed_packages(Cases& cases) {
-  const std::vector<Named> all{points_into, points,       tiles,         raster,   window,   surfaces, plan,     description,
-                               inventory,   height_range, cell_contents, geometry, far_view, check,    outlines, heights};
+  const std::vector<Named> all{points_into, points,      tiles,     raster,       window,         surfaces,
+                               plan,        description, inventory, height_range, cell_contents,  geometry,
+                               far_view,    check,       outlines,  heights,      plan_of_heights};
   cases.add(all, "a closed package", [](Arguments& a) { a.package.close(); });
   cases.add(all, "a package closed twice", [](Arguments& a) {
     a.package.close();
@@ -243,7 +244,8 @@ void add_surfaces(Cases& cases) {
 }
 
 void add_inspections(Cases& cases) {
-  cases.add({check, outlines, heights}, "too small a limit", ends::limit, [](Arguments& a) { a.run.memory_limit_mib = 1; });
+  cases.add({check, outlines, heights, plan_of_heights}, "too small a limit", ends::limit,
+            [](Arguments& a) { a.run.memory_limit_mib = 1; });
   const std::vector<Named> of_a_cell{cell_contents, far_view};
   cases.add(of_a_cell, "a cell to the west of all", [](Arguments& a) { --a.cell.i; });
   cases.add(of_a_cell, "a cell at no place", [](Arguments& a) { a.cell.j = std::numeric_limits<std::int32_t>::max(); });
@@ -294,7 +296,7 @@ std::string_view ended_with(const WrongCall& wrong, Arguments& arguments, std::s
 TEST(WrongCalls, RightCallsEndWithNothing) {
   const PackedSample sample;
   for (const Named& named : {points_into, points, tiles, raster, window, surfaces, plan, description, inventory, height_range,
-                             cell_contents, geometry, far_view, check, outlines, heights}) {
+                             cell_contents, geometry, far_view, check, outlines, heights, plan_of_heights}) {
     Arguments arguments(sample.folder());
     EXPECT_NO_THROW(named.call(arguments)) << named.name;
   }

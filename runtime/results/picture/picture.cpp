@@ -26,6 +26,12 @@ constexpr std::array<Colour, 9> viridis{{{68, 1, 84},
 constexpr std::array<Colour, 7> violet_to_brown{
     {{45, 0, 75}, {128, 115, 172}, {216, 218, 235}, {247, 247, 247}, {254, 224, 182}, {224, 130, 20}, {127, 59, 8}}};
 
+// YlOrRd of ColorBrewer (Harrower and Brewer 2003), seven colours without the palest
+constexpr std::array<Colour, 6> yellow_to_red{
+    {{254, 217, 118}, {254, 178, 76}, {253, 141, 60}, {252, 78, 42}, {227, 26, 28}, {177, 0, 38}}};
+
+constexpr std::array<Colour, 2> greys{{{150, 158, 162}, {236, 238, 238}}};
+
 std::uint8_t mix(std::uint8_t a, std::uint8_t b, double share_of_b) {
   return static_cast<std::uint8_t>(std::lround((1.0 - share_of_b) * a + share_of_b * b));
 }
@@ -66,6 +72,24 @@ Colour colour_of_svf(double svf) {
 Colour colour_of_error(double share) {
   FARLOD_EXPECTS(!std::isnan(share));
   return colour_at(0.5 * (1.0 + share), violet_to_brown);
+}
+
+Colour colour_of_height(double share) {
+  FARLOD_EXPECTS(!std::isnan(share));
+  return colour_at(share, yellow_to_red);
+}
+
+Colour colour_of_ground(double share) {
+  FARLOD_EXPECTS(!std::isnan(share));
+  return colour_at(share, greys);
+}
+
+Colour lit(Colour colour, float factor) {
+  const auto channel = [&](std::uint8_t c) {
+    const double value = factor <= 1.0F ? c * static_cast<double>(factor) : c + (255.0 - c) * (static_cast<double>(factor) - 1.0);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+  };
+  return {channel(colour.red), channel(colour.green), channel(colour.blue)};
 }
 
 }  // namespace farlod

@@ -52,6 +52,16 @@ class Picture {
 /// cones; in a print in grey they are not.
 [[nodiscard]] Colour colour_of_error(double share);
 
+/// The colour of a building's height, as a share of the greatest of the scale: from yellow to dark red, the higher the darker; a
+/// value above 1 has the colour of 1.
+[[nodiscard]] Colour colour_of_height(double share);
+
+/// The grey of the ground's elevation, as a share of the highest: the higher the lighter.
+[[nodiscard]] Colour colour_of_ground(double share);
+
+/// Darker or lighter, by a factor around 1.
+[[nodiscard]] Colour lit(Colour colour, float factor);
+
 /// The colour of pixels without data: a grey that is not in the colour map.
 inline constexpr Colour nodata_colour{190, 190, 190};
 

@@ -103,15 +103,6 @@ std::string subtitle_of(const RasterFrame& frame) {
 
 PagePoint page_point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
-/// Darker or lighter, by a factor around 1.
-Colour lit(Colour colour, float factor) {
-  const auto channel = [&](std::uint8_t c) {
-    const double value = factor <= 1.0F ? c * static_cast<double>(factor) : c + (255.0 - c) * (static_cast<double>(factor) - 1.0);
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
-  };
-  return {channel(colour.red), channel(colour.green), channel(colour.blue)};
-}
-
 Picture map_of(const PreviewRaster& raster, const std::vector<float>& shading) {
   Picture map({raster.columns, raster.rows}, nodata_colour);
   for (std::size_t row = 0; row < raster.rows; ++row)
