@@ -121,15 +121,18 @@ void add_scales(Drawing& drawing, Pixel place, const CityScale& scale) {
   for (int n = 0; n <= steps; ++n)
     ticks.emplace_back(static_cast<double>(n) / steps,
                        fmt::format("{}{:g} m", n == steps && scale.highest_m > scale.top_m ? "≥ " : "", n * scale.top_m / steps));
-  const std::string low = fmt::format("{:.1f} m", scale.low_m), high = fmt::format("{:.1f} m", scale.high_m);
+  std::vector<std::pair<double, std::string>> elevations{{0.0, fmt::format("{:.1f} m", scale.low_m)}};
+  // Level ground has one
+  if (scale.high_m > scale.low_m) elevations.emplace_back(1.0, fmt::format("{:.1f} m", scale.high_m));
   words_at(14, "Buildings");
   words_at(34, "above ground");
   if (scale.top_m > 0.0) add_scale(drawing, {place.x, place.y + 48}, {width, 200}, colour_of_height, ticks);
   words_at(294, "Ground");
   words_at(314, "above the sea");
-  add_scale(drawing, {place.x, place.y + 328}, {width, 100},
-            [&](double share) { return colour_of_ground(share_of_ground(std::lerp(scale.low_m, scale.high_m, share), scale)); },
-            {{0.0, low}, {1.0, low == high ? "" : high}});
+  add_scale(
+      drawing, {place.x, place.y + 328}, {width, 100},
+      [&](double share) { return colour_of_ground(share_of_ground(std::lerp(scale.low_m, scale.high_m, share), scale)); },
+      elevations);
 }
 
 std::string words_of_grid(const CityScenery& scenery) {
@@ -181,7 +184,7 @@ CityScale scale_of(const PlanHeights& heights) {
     if (rise_m > scale.highest_m) std::tie(scale.highest_m, scale.highest_at) = std::pair(rise_m, n);
   }
   if (risen_m.empty()) return scale;
-  const auto end = risen_m.begin() + static_cast<std::ptrdiff_t>((risen_m.size() - 1) * 99 / 100);
+  const auto end = risen_m.begin() + static_cast<std::ptrdiff_t>(risen_m.size() - 1 - risen_m.size() / 100);
   std::ranges::nth_element(risen_m, end);
   scale.top_m = 5.0 * std::ceil(static_cast<double>(*end) / 5.0);
   return scale;

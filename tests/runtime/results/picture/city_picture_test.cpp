@@ -13,7 +13,7 @@ namespace farlod {
 namespace {
 
 constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
-constexpr Colour paper{255, 255, 255};
+constexpr Colour blank{255, 255, 255};
 
 /// 60 × 40 pixels of 10 m on level ground at 100 m. The west is beyond the grid; a house of 12 m is in columns 20 to 29 of rows
 /// 10 to 19, and a tower of 90 m in columns 40 and 41 of row 30.
@@ -47,7 +47,7 @@ TEST_F(CityPicture, HasTheColoursOfWhatIsThere) {
   EXPECT_EQ(scale.top_m, 90.0) << "two pixels of 102 are more than one in a hundred";
   EXPECT_EQ(at(25, 15), colour_of_height(12.0 / 90.0));
   EXPECT_EQ(at(15, 15), colour_of_ground(1.0));
-  EXPECT_EQ(at(5, 15), paper) << "beyond the grid";
+  EXPECT_EQ(at(5, 15), blank) << "beyond the grid";
   EXPECT_EQ(picture().size(), city_layout(scenery_.plan).picture);
 }
 
