@@ -192,7 +192,8 @@ std::size_t differences(const RasterFile& a, const RasterFile& b) {
   constexpr std::size_t footer_rows = 160;
   constexpr double visible = 40.0;
   std::size_t count = 0;
-  for (std::size_t n = 0; n < a.columns * (a.rows - footer_rows); ++n) count += std::abs(*a.values[n] - *b.values[n]) > visible;
+  for (std::size_t n = 0; n < a.columns * (a.rows - footer_rows); ++n)
+    count += std::abs(*a.values[n] - *b.values[n]) > visible ? 1 : 0;
   return count;
 }
 
