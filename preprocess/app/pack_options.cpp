@@ -95,6 +95,9 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
          "Names of objects, groups or materials in these that are ground, such as Gelaende,Strasse; besides Terrain, Road, "
          "Water and others")
       ->group("Input");
+}
+
+void add_footprint_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")
       ->group("Input");
   app.add_option("--base-field", raw.base_field, "Attribute with the elevation of a footprint's base, in metres")->group("Input");
@@ -122,6 +125,9 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
       ->capture_default_str()
       ->group("Input");
+}
+
+void add_terrain_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--terrain", raw.terrain,
                  "Raster of ground elevations (any that GDAL reads), or a folder of them; may be given several times: later ones "
                  "lie on top")
@@ -134,8 +140,10 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(between(-1000.0, 1000.0))
       ->group("Input");
   app.add_option("--far-terrain", raw.far_terrains,
-                 "Raster of elevations around the city, of any resolution: mountains hide the sky")
+                 "Raster of elevations around the city, of any resolution: mountains hide the sky; may be given several times")
       ->type_name(file_value)
+      ->expected(1)
+      ->take_all()
       ->group("Input");
 }
 
@@ -367,6 +375,8 @@ struct CommandLine {
   CommandLine() {
     describe_program(app, pack_program());
     add_input_options(app, raw, options);
+    add_footprint_options(app, raw, options);
+    add_terrain_options(app, raw, options);
     add_tree_options(app, raw);
     add_canopy_options(app, raw, options);
     add_grid_options(app, raw, options);

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/cancellation.hpp"
+#include "city/geometry.hpp"
 #include "far_terrain/cut_out.hpp"
 #include "far_terrain/right_triangles.hpp"
 #include "farlod/error.hpp"
@@ -42,9 +43,11 @@ class PlanOfSquare {
   PlanOfSquare(const HeightSamples& raster, const PixelLattice& l, const Grid& grid) {
     std::array<Point3d, points * points> pixels;
     const double apart = static_cast<double>(l.step) * side / (points - 1);
-    for (std::size_t n = 0; n < pixels.size(); ++n)
-      pixels[n] = {static_cast<double>(l.column) + static_cast<double>(n % points) * apart,
-                   static_cast<double>(l.row) + static_cast<double>(n / points) * apart, 0.0};
+    for (std::size_t n = 0; n < pixels.size(); ++n) {
+      const std::size_t column = n % points, row = n / points;
+      pixels[n] = {static_cast<double>(l.column) + static_cast<double>(column) * apart,
+                   static_cast<double>(l.row) + static_cast<double>(row) * apart, 0.0};
+    }
     raster.move_to_city(pixels);
     for (std::size_t n = 0; n < pixels.size(); ++n) {
       places_[n] = grid.rotation.grid_from_city(horizontal(pixels[n]));
@@ -230,10 +233,11 @@ class FarTerrainMaker {
   [[nodiscard]] std::vector<Point3d> places_of(const PixelLattice& l, std::span<const float> height_m,
                                                std::span<const std::uint32_t> nodes) const {
     std::vector<Point3d> places;
-    for (const std::uint32_t node : nodes)
-      places.push_back({static_cast<double>(l.column + std::int64_t{l.step} * (node % (side + 1))),
-                        static_cast<double>(l.row + std::int64_t{l.step} * (node / (side + 1))),
+    for (const std::uint32_t node : nodes) {
+      const std::int64_t column = node % (side + 1), row = node / (side + 1);
+      places.push_back({static_cast<double>(l.column + l.step * column), static_cast<double>(l.row + l.step * row),
                         static_cast<double>(height_m[node]) + offset_m_});
+    }
     raster_->move_to_city(places);
     const Point2d middle = 0.5 * (rectangle_.low + rectangle_.high);
     for (Point3d& p : places) {

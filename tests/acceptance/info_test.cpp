@@ -204,8 +204,8 @@ TEST_F(Info, MarksTheReportInThePictureOfTheCity) {
     [[500050, 5500030], [500060, 5500030], [500060, 5500040], [500050, 5500030]]]}}]})");
   folder.must("farlod-pack town.geojson odd.geojson -o b.farlod --quiet --report problems.geojson");
   ASSERT_THAT(folder.text_of("problems.geojson"), HasSubstr("hole_outside"));
-  // The same place in the CRS of the package
-  folder.write("place.csv", "x,y\n500050,5500030\n");
+  // The same two places, of the hole in the roof and of that in the floor, in the CRS of the package
+  folder.write("place.csv", "x,y\n500050,5500030\n500060,5500040\n");
   const auto picture = [&](const std::string& name, const std::string& arguments) {
     folder.must("farlod-info b.farlod --quiet --png " + name + ".png " + arguments);
     folder.write(name + ".pgw", "1\n0\n0\n-1\n0\n0\n");

@@ -86,14 +86,14 @@ struct FormatEnding {
 /// All that is known of a format that has a reader. Detection, the search of folders, messages and help read it here. How to add
 /// a format: CONTRIBUTING.md.
 struct InputFormat {
-  FileFormat format = FileFormat::unknown;
   std::string_view name = {};      ///< "CityGML"
   std::string_view versions = {};  ///< "1.0 to 3.0"
   std::array<FormatEnding, 16> endings = {};
   bool (*is_this)(const FileBeginning&) = nullptr;  ///< null: GDAL tells
-  bool is_piped = false;                            ///< it is told by its beginning, and read once from there to its end
-  bool is_mesh = false;                             ///< polygons alone: --origin, --up and --ground-names are about it
   FormatAdvice advice = {};
+  FileFormat format = FileFormat::unknown;
+  bool is_piped = false;  ///< it is told by its beginning, and read once from there to its end
+  bool is_mesh = false;   ///< polygons alone: --origin, --up and --ground-names are about it
 };
 
 /// In the order in which contents are compared with them.
