@@ -95,6 +95,14 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
          "Names of objects, groups or materials in these that are ground, such as Gelaende,Strasse; besides Terrain, Road, "
          "Water and others")
       ->group("Input");
+  app.add_option("--layer", raw.layer,
+                 "Layer of a file of several (GeoPackage, File Geodatabase, netCDF) to read: features or a raster")
+      ->group("Input");
+  app.add_option("--encoding", raw.encoding, "Of the texts of a Shapefile without .cpg, such as GBK or CP1252")->group("Input");
+  app.add_option("--lod", raw.lod, "Level of detail to read")
+      ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
+      ->capture_default_str()
+      ->group("Input");
 }
 
 void add_footprint_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
@@ -116,14 +124,6 @@ void add_footprint_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--unknown-height", o.settings.footprints.unknown_heights,
                  "Numbers that mean that a height is not known, such as 0,-1,999: storeys or the default height count then")
       ->delimiter(',')
-      ->group("Input");
-  app.add_option("--layer", raw.layer,
-                 "Layer of a file of several (GeoPackage, File Geodatabase, netCDF) to read: features or a raster")
-      ->group("Input");
-  app.add_option("--encoding", raw.encoding, "Of the texts of a Shapefile without .cpg, such as GBK or CP1252")->group("Input");
-  app.add_option("--lod", raw.lod, "Level of detail to read")
-      ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
-      ->capture_default_str()
       ->group("Input");
 }
 

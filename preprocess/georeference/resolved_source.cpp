@@ -63,40 +63,6 @@ void ProblemLocator::locate(Problem& problem) {
   if (lon_lat_deg && is_on_earth(*lon_lat_deg)) problem.lon_lat_deg = lon_lat_deg;
 }
 
-std::string country_in(std::string_view area_name) {
-  const std::size_t end = area_name.find(" - ");
-  std::string_view name = area_name.substr(0, end);
-  if (name.ends_with('.')) name.remove_suffix(1);
-  // What follows a part of a country may be another one: "Japan - onshore; South Korea - onshore"
-  const bool is_list = name.find_first_of(",.:") != name.npos || (end != area_name.npos && area_name.find(';') != area_name.npos);
-  const bool is_zone = name.find_first_of("0123456789") != name.npos;
-  constexpr std::array continents{"World", "Europe", "Africa", "Asia", "North America", "South America", "Antarctica"};
-  const bool is_continent = std::any_of(continents.begin(), continents.end(), [&](auto c) { return name.starts_with(c); });
-  return is_list || is_zone || is_continent ? "" : std::string(name);
-}
-
-namespace {
-
-/// Datums on the ellipsoids GRS 80 and WGS 84 lie around the middle of the Earth, and differ by a few metres. PROJ searches a
-/// tenth of a second for some of these shifts.
-bool is_geocentric(const Crs& crs) {
-  const Ellipsoid ellipsoid = crs.ellipsoid();
-  return ellipsoid.semi_major_m == 6378137.0 && std::abs(ellipsoid.inverse_flattening - 298.2572) < 1e-4;
-}
-
-}  // namespace
-
-PlaceOnEarth place_of(const Georeference& georeference) {
-  const auto crs = Crs::find(georeference.crs_wkt);
-  FARLOD_EXPECTS(crs.has_value());
-  const Point2d middle = georeference.origin_m;
-  PlaceOnEarth place{is_geocentric(*crs) ? crs->lon_lat_deg(middle) : make_transformation(*crs, middle).apply(middle), ""};
-  if (place.lon_lat_deg && !is_on_earth(*place.lon_lat_deg)) place.lon_lat_deg.reset();
-  const auto area = crs->area_of_use();
-  if (place.lon_lat_deg && area && area->contains(*place.lon_lat_deg)) place.country = country_in(crs->area_name());
-  return place;
-}
-
 namespace {
 
 /// Areas of use are bounding boxes of countries and zones. Towns at a border extend beyond them.

@@ -63,18 +63,6 @@ class ProblemLocator {
   std::optional<CrsTransformation> lon_lat_from_crs_;  ///< made for the first problem: most cities have none
 };
 
-/// Where a city lies, for people.
-struct PlaceOnEarth {
-  std::optional<Point2d> lon_lat_deg;  ///< WGS 84, to within some metres
-  std::string country;                 ///< that the CRS is meant for, where the city lies there; empty where it is not for one
-};
-
-/// The place of the origin of the city frame.
-[[nodiscard]] PlaceOnEarth place_of(const Georeference& georeference);
-
-/// The country in the name of an area of the EPSG register: its first words. Empty for zones, continents and lists.
-[[nodiscard]] std::string country_in(std::string_view area_name);
-
 /// A place as messages show it.
 [[nodiscard]] inline std::string place_text(Point2d p) {
   std::ostringstream text;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "georeference/resolved_source.hpp"
+#include "georeference/place_on_earth.hpp"
 
 namespace farlod::pipeline {
 namespace {

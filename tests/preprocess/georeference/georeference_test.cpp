@@ -8,6 +8,7 @@
 
 #include "farlod/error.hpp"
 #include "georeference/crs.hpp"
+#include "georeference/place_on_earth.hpp"
 #include "georeference/resolved_source.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 #include "tests/scenes/refusal.hpp"

@@ -260,7 +260,9 @@ TEST(InputFormats, AreThoseOfTheDocuments) {
     ASSERT_NE(row, ingest.npos) << name;
     const std::string line = ingest.substr(row + 1, ingest.find('\n', row + 1) - row);
     for (const FormatEnding& ending : format.endings)
-      if (!ending.text.empty()) EXPECT_THAT(line, HasSubstr("`" + std::string(ending.text) + "`")) << name;
+      if (!ending.text.empty()) {
+        EXPECT_THAT(line, HasSubstr("`" + std::string(ending.text) + "`")) << name;
+      }
     for (const char* document : {"README.md", "qgis/farlod/pack.py", "python/src/farlod/_packing.py"})
       EXPECT_THAT(text_of(document), HasSubstr(name)) << document;
   }

@@ -17,7 +17,6 @@
 namespace farlod::ingest::test {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
