@@ -257,8 +257,10 @@ Mesh scan_glb(const InputFile& file) {
   stream->ignore(head_bytes);
   std::string head, binary;
   while (auto part = next_part(*stream)) {
-    if (part->first == "JSO") head = std::move(part->second);
-    if (part->first == "BIN") binary = std::move(part->second);
+    if (part->first == "JSO")
+      head = std::move(part->second);
+    else if (part->first == "BIN")
+      binary = std::move(part->second);
   }
   try {
     return GlbScanner(json::parse(head), binary).scan();
