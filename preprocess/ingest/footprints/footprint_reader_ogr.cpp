@@ -112,7 +112,6 @@ class FootprintLayer {
         table_(layer),
         parts_(layer, table_),
         heights_(table_.names(), with_fields_checked(settings)) {
-    require_texts();
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
     holds_bodies_ = find_bodies();
@@ -154,6 +153,8 @@ class FootprintLayer {
   int index_of(const char* name) const { return layer_.GetLayerDefn()->GetFieldIndex(name); }
 
   const FootprintSettings& with_fields_checked(const FootprintSettings& settings) {
+    // A name that cannot be read is not found either
+    require_texts();
     check_field(settings.height_field, "--height-field");
     check_field(settings.base_field, "--base-field");
     check_field(settings.storeys_field, "--storeys-field");
