@@ -117,6 +117,8 @@ class Crs {
   /// The longitude and latitude of a point on the ellipsoid of its datum, in degrees from Greenwich, without the shift to WGS 84,
   /// which may be some hundred metres. Empty if the point has none.
   [[nodiscard]] std::optional<Point2d> lon_lat_deg(Point2d p) const;
+  /// The same with the shift to WGS 84, to within some metres where PROJ knows the shift.
+  [[nodiscard]] std::optional<Point2d> wgs84_lon_lat_deg(Point2d p) const;
 
   /// The geographic CRS on which a projected one is based; of a geographic CRS, itself.
   [[nodiscard]] Crs geographic() const;

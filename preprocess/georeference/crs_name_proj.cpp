@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "georeference/crs.hpp"
+#include "georeference/objects_proj.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -29,16 +30,12 @@ enum class Search { exact, approximate };
 /// The entries whose name or alias is the text, or contains its words.
 std::vector<Entry> search(const std::string& text, std::span<const PJ_TYPE> types, Search kind) {
   constexpr std::size_t most = 100;
-  const std::unique_ptr<PJ_CONTEXT, decltype(&proj_context_destroy)> context(proj_context_create(), &proj_context_destroy);
-  proj_context_set_enable_network(context.get(), 0);
-  proj_log_level(context.get(), PJ_LOG_NONE);
-  const std::unique_ptr<PJ_OBJ_LIST, decltype(&proj_list_destroy)> found(
-      proj_create_from_name(context.get(), nullptr, text.c_str(), types.data(), types.size(), kind == Search::approximate ? 1 : 0,
-                            most, nullptr),
-      &proj_list_destroy);
+  const Owned<PJ_CONTEXT> context = make_context();
+  const Owned<PJ_OBJ_LIST> found(proj_create_from_name(context.get(), nullptr, text.c_str(), types.data(), types.size(),
+                                                       kind == Search::approximate ? 1 : 0, most, nullptr));
   std::vector<Entry> entries;
   for (int n = 0; found && n < proj_list_get_count(found.get()); ++n) {
-    const std::unique_ptr<PJ, decltype(&proj_destroy)> entry(proj_list_get(context.get(), found.get(), n), &proj_destroy);
+    const Owned<PJ> entry(proj_list_get(context.get(), found.get(), n));
     entries.push_back({proj_get_name(entry.get()),
                        std::string(proj_get_id_auth_name(entry.get(), 0)) + ":" + proj_get_id_code(entry.get(), 0)});
   }

@@ -11,29 +11,13 @@
 
 #include "base/expects.hpp"
 #include "georeference/crs.hpp"
+#include "georeference/objects_proj.hpp"
 
 namespace farlod::georeference {
 namespace {
 
-struct ContextDeleter {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-};
-struct ObjectDeleter {
-  void operator()(PJ* object) const { proj_destroy(object); }
-};
-struct ListDeleter {
-  void operator()(PJ_OBJ_LIST* list) const { proj_list_destroy(list); }
-};
 using Context = std::shared_ptr<PJ_CONTEXT>;
-using Object = std::unique_ptr<PJ, ObjectDeleter>;
-
-/// A context for one CRS. The default context of PROJ is shared, and may use the network.
-Context make_context() {
-  Context context(proj_context_create(), ContextDeleter{});
-  proj_context_set_enable_network(context.get(), 0);
-  proj_log_level(context.get(), PJ_LOG_NONE);
-  return context;
-}
+using Object = Owned<PJ>;
 
 Object clone(const Context& context, const PJ* object) { return Object(proj_clone(context.get(), object)); }
 
@@ -84,7 +68,7 @@ std::optional<double> vertical_unit_m(const Context& context, const PJ* crs) {
 Object entry_of_register(const Context& context, const PJ* crs) {
   constexpr int surely = 90;  // the confidence that GDAL requires
   int* confidences = nullptr;
-  const std::unique_ptr<PJ_OBJ_LIST, ListDeleter> list(proj_identify(context.get(), crs, "EPSG", nullptr, &confidences));
+  const Owned<PJ_OBJ_LIST> list(proj_identify(context.get(), crs, "EPSG", nullptr, &confidences));
   Object entry;
   if (list && proj_list_get_count(list.get()) > 0 && confidences[0] >= surely)
     entry.reset(proj_list_get(context.get(), list.get(), 0));
@@ -207,6 +191,20 @@ std::optional<Point2d> Crs::lon_lat_deg(Point2d p) const {
   const Point2d lon_lat = base.unit() * (180.0 / std::numbers::pi) * *there;
   const double greenwich_deg = prime_meridian_deg(base.impl_->context, base.impl_->plain.get()).value_or(0.0);
   return std::abs(lon_lat.y) <= 90.0 ? std::optional(Point2d{lon_lat.x + greenwich_deg, lon_lat.y}) : std::nullopt;
+}
+
+std::optional<Point2d> Crs::wgs84_lon_lat_deg(Point2d p) const {
+  const auto own_deg = lon_lat_deg(p);
+  if (!own_deg) return std::nullopt;
+  const Context& context = impl_->context;
+  const Crs base = geographic();
+  const Object wgs84(proj_normalize_for_visualization(context.get(), Object(proj_create(context.get(), "EPSG:4326")).get()));
+  const auto found = operations(context.get(), base.impl_->plain.get(), wgs84.get(), own_deg, MissingGrids::do_not_count);
+  const Object shift(found ? proj_list_get(context.get(), found.get(), 0) : nullptr);
+  const auto in_base = is_projected() ? impl_->way_to_geographic(*this).way.apply(p) : p;
+  if (!shift) return own_deg;
+  const PJ_COORD there = proj_trans(shift.get(), PJ_FWD, proj_coord(in_base->x, in_base->y, 0.0, HUGE_VAL));
+  return std::isfinite(there.xy.x) && std::isfinite(there.xy.y) ? std::optional(Point2d{there.xy.x, there.xy.y}) : std::nullopt;
 }
 
 std::optional<std::string> Crs::heights_name() const {
@@ -333,8 +331,8 @@ Crs Crs::utm(UtmZone zone) const {
 std::optional<Crs::Distortion> Crs::distortion_at(Point2d p_projected) const {
   // proj_factors of PROJ 9.1 ignores the unit of a CRS in feet
   if (unit() != 1.0) return counted_in(metre).distortion_at(unit() * p_projected);
-  const Crs base = geographic();
-  const auto place = CrsTransformation(*this, base, p_projected).apply(p_projected);
+  const auto& [base, way] = impl_->way_to_geographic(*this);
+  const auto place = way.apply(p_projected);
   if (!place) return std::nullopt;
   const PJ_FACTORS f = proj_factors(impl_->plain.get(), proj_coord(place->x * base.unit(), place->y * base.unit(), 0.0, 0.0));
   if (!(f.tissot_semiminor > 0.0) || !std::isfinite(f.tissot_semimajor) || !std::isfinite(f.meridian_convergence))

@@ -6,32 +6,10 @@
 
 #include "base/expects.hpp"
 #include "georeference/height_shift.hpp"
+#include "georeference/objects_proj.hpp"
 
 namespace farlod::georeference {
 namespace {
-
-struct Release {
-  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
-  void operator()(PJ* object) const { proj_destroy(object); }
-  void operator()(PJ_OBJ_LIST* list) const { proj_list_destroy(list); }
-  void operator()(PJ_OPERATION_FACTORY_CONTEXT* search) const { proj_operation_factory_context_destroy(search); }
-};
-template <class T>
-using Owned = std::unique_ptr<T, Release>;
-
-/// Operations from one system to another at a place, the most exact first, whether their grids are installed or not.
-Owned<PJ_OBJ_LIST> operations(PJ_CONTEXT* context, const PJ* from, const PJ* to, std::optional<Point2d> lon_lat_deg) {
-  const Owned<PJ_OPERATION_FACTORY_CONTEXT> search(proj_create_operation_factory_context(context, nullptr));
-  constexpr double around_deg = 0.01;
-  if (lon_lat_deg)
-    proj_operation_factory_context_set_area_of_interest(context, search.get(), lon_lat_deg->x - around_deg,
-                                                        lon_lat_deg->y - around_deg, lon_lat_deg->x + around_deg,
-                                                        lon_lat_deg->y + around_deg);
-  proj_operation_factory_context_set_spatial_criterion(context, search.get(), PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
-  proj_operation_factory_context_set_grid_availability_use(context, search.get(), PROJ_GRID_AVAILABILITY_IGNORED);
-  proj_operation_factory_context_set_allow_ballpark_transformations(context, search.get(), 0);
-  return Owned<PJ_OBJ_LIST>(proj_create_operations(context, from, to, search.get()));
-}
 
 /// The first grid of an operation that is not installed: its name as `projsync` fetches it, else as the register has it.
 std::string missing_grid(PJ_CONTEXT* context, const PJ* operation) {
@@ -66,13 +44,12 @@ HeightShift::HeightShift(const Crs& from, const Crs& to, Point2d typical) {
   is_same_ = from.heights_name() == to.heights_name();
   if (is_same_) return;
   auto impl = std::make_shared<Impl>();
-  impl->context.reset(proj_context_create());
+  impl->context = make_context();
   impl->to_unit_m = to.height_unit_m();
   PJ_CONTEXT* const context = impl->context.get();
-  proj_context_set_enable_network(context, 0);
-  proj_log_level(context, PJ_LOG_NONE);
   const Owned<PJ> own(proj_create(context, from.whole_wkt().c_str())), other(proj_create(context, to.whole_wkt().c_str()));
-  const auto list = own && other ? operations(context, own.get(), other.get(), from.lon_lat_deg(typical)) : nullptr;
+  const auto list =
+      own && other ? operations(context, own.get(), other.get(), from.lon_lat_deg(typical), MissingGrids::count) : nullptr;
   std::string grid;
   for (int n = 0; list && n < proj_list_get_count(list.get()) && !impl_; ++n) {
     const Owned<PJ> found(proj_list_get(context, list.get(), n));

@@ -25,17 +25,11 @@ std::string country_in(std::string_view area_name) {
 
 namespace {
 
-/// Datums on the ellipsoids GRS 80 and WGS 84 lie around the middle of the Earth, and differ by a few metres. PROJ searches a
-/// tenth of a second for some of these shifts.
+/// Datums on the ellipsoids GRS 80 and WGS 84 lie around the middle of the Earth, and differ by a few metres. PROJ searches
+/// for a hundredth of a second for some of these shifts.
 bool is_geocentric(const Crs& crs) {
   const Ellipsoid ellipsoid = crs.ellipsoid();
   return ellipsoid.semi_major_m == 6378137.0 && std::abs(ellipsoid.inverse_flattening - 298.2572) < 1e-4;
-}
-
-std::optional<Point2d> shifted_to_wgs84(const Crs& crs, Point2d place) {
-  const auto wgs84 = Crs::find("EPSG:4326");
-  FARLOD_EXPECTS(wgs84.has_value());
-  return CrsTransformation(crs, *wgs84, place).apply(place);
 }
 
 bool lies_on_earth(Point2d lon_lat_deg) { return std::abs(lon_lat_deg.x) <= 180.0 && std::abs(lon_lat_deg.y) <= 90.0; }
@@ -46,7 +40,7 @@ PlaceOnEarth place_of(const Georeference& georeference) {
   const auto crs = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(crs.has_value());
   const Point2d middle = georeference.origin_m;
-  PlaceOnEarth place{is_geocentric(*crs) ? crs->lon_lat_deg(middle) : shifted_to_wgs84(*crs, middle), ""};
+  PlaceOnEarth place{is_geocentric(*crs) ? crs->lon_lat_deg(middle) : crs->wgs84_lon_lat_deg(middle), ""};
   if (place.lon_lat_deg && !lies_on_earth(*place.lon_lat_deg)) place.lon_lat_deg.reset();
   const auto area = crs->area_of_use();
   if (place.lon_lat_deg && area && area->contains(*place.lon_lat_deg)) place.country = country_in(crs->area_name());
