@@ -34,6 +34,7 @@ FeatureTable::FeatureTable(OGRLayer& layer) {
     if (is_collection(names_.back())) collections_.push_back(field);
   }
   columns_ = names_.size();
+  for (const std::string& name : names_) tag_names_.push_back(lower_case(name));
   const std::vector<std::string> column_names = names_;
   for (const std::string& tag : known_tags())
     if (!collections_.empty() && std::find(column_names.begin(), column_names.end(), tag) == column_names.end())
@@ -76,7 +77,7 @@ FieldValue FeatureTable::Row::value(std::size_t field) const {
 std::optional<std::string> FeatureTable::Row::tag(std::string_view name) const {
   if (auto found = collected(name)) return found;
   for (std::size_t column = 0; column < table_.columns_; ++column) {
-    if (lower_case(table_.names_[column]) != name) continue;
+    if (table_.tag_names_[column] != name) continue;
     const int n = static_cast<int>(column);
     return feature_.IsFieldSetAndNotNull(n) ? std::optional<std::string>(feature_.GetFieldAsString(n)) : std::nullopt;
   }

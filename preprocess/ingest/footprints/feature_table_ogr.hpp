@@ -53,6 +53,7 @@ class FeatureTable {
 
  private:
   std::vector<std::string> names_;
+  std::vector<std::string> tag_names_;  ///< of the columns, in lower case
   std::size_t columns_ = 0;
   std::vector<int> collections_;
   std::optional<BuildingTags> tags_;
