@@ -58,6 +58,7 @@ enum class ProblemCode : std::uint16_t {
   undeclared_no_data = 211,
   another_datum = 212,
   beyond_terrain = 213,
+  described_twice = 214,
   no_dominant_direction = 301,
   nearly_empty_grid = 302,
   zero_area = 401,
@@ -85,7 +86,7 @@ struct ProblemDescription {
 /// Whether the whole model is in doubt, so that the long work may be in vain: told before it begins.
 [[nodiscard]] constexpr bool doubts_the_model(ProblemCode code) {
   return code == ProblemCode::unlikely_place || code == ProblemCode::implausible_size || code == ProblemCode::lies_on_its_side ||
-         code == ProblemCode::another_datum || code == ProblemCode::nearly_empty_grid;
+         code == ProblemCode::another_datum || code == ProblemCode::described_twice || code == ProblemCode::nearly_empty_grid;
 }
 
 /// All problems that exist, by code.
@@ -157,6 +158,7 @@ inline constexpr std::array problem_descriptions{
     ProblemDescription{ProblemCode::another_datum, "another_datum", Effect::kept,
                        "heights of a file count from another zero than those of the others"},
     ProblemDescription{ProblemCode::beyond_terrain, "beyond_terrain", Effect::kept, "buildings lie beyond the terrain"},
+    ProblemDescription{ProblemCode::described_twice, "described_twice", Effect::kept, "two files have the same buildings"},
     ProblemDescription{ProblemCode::no_dominant_direction, "no_dominant_direction", Effect::kept,
                        "the streets have no dominant direction"},
     ProblemDescription{ProblemCode::nearly_empty_grid, "nearly_empty_grid", Effect::kept,
@@ -186,8 +188,8 @@ struct Problem {
   std::string place;   ///< the building's id, the feature's number or the line
   std::string detail;  ///< what exactly, with figures
   /// A place on the ground, where one is known. 1xx and 2xx: as the file counts, in its axis order (an OBJ file with its
-  /// origin added, z up); 123, 124, 207 to 210, 212, 213, 4xx and what waits for the terrain: easting, northing and height in the
-  /// CRS of the package.
+  /// origin added, z up); 123, 124, 207 to 210, 212 to 214, 4xx and what waits for the terrain: easting, northing and height in
+  /// the CRS of the package.
   std::optional<Point3d> position = {};
   /// The same in degrees of WGS 84, longitude first; known once the CRS of the position is.
   std::optional<Point2d> lon_lat_deg = {};

@@ -16,6 +16,7 @@
 #include "georeference/implausible_model.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/resolved_source.hpp"
+#include "plausibility/described_twice.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -185,6 +186,7 @@ void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report
 void report_doubts(const LocatedCity& located, const Crs& output, Report& report) {
   const std::size_t known = report.problems().size();
   const auto objection = report_implausible(located, report);
+  plausibility::report_described_twice(located, report);
   locate_problems(known, located, output, report);
   if (objection) throw InputError(*objection);
 }

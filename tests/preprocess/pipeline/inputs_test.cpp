@@ -181,6 +181,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"undeclared_no_data", {{}, 0}},  // a surface model
       {"another_datum", {house_names(9), 54}},
       {"beyond_terrain", {house_names(9), 54}},
+      {"described_twice", {{"house 0", "house 1", "house 2", "survey 0", "survey 1", "survey 2"}, 36}},
       {"no_dominant_direction", {{"rotunda"}, 66}},
       {"nearly_empty_grid", {{"house", "neighbour"}, 12}},
       {"zero_area", {{"house"}, 6}},  // of seven polygons
