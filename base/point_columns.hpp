@@ -16,14 +16,17 @@
 namespace farlod::point_columns {
 
 inline constexpr std::array<std::string_view, 3> id_names{"id", "name", "fid"};
-inline constexpr std::array<std::string_view, 5> x_names{"x", "x_m", "easting", "lon", "longitude"};
-inline constexpr std::array<std::string_view, 5> y_names{"y", "y_m", "northing", "lat", "latitude"};
+inline constexpr std::array<std::string_view, 8> x_names{"x", "x_m", "easting", "lon", "longitude", "long", "lng", "lon_dd"};
+inline constexpr std::array<std::string_view, 6> y_names{"y", "y_m", "northing", "lat", "latitude", "lat_dd"};
 inline constexpr std::array<std::string_view, 4> z_names{"z", "z_m", "height_m", "elevation"};
 inline constexpr std::array<std::string_view, 2> azimuth_names{"azimuth", "azimuth_deg"};
 inline constexpr std::array<std::string_view, 2> tilt_names{"tilt", "tilt_deg"};
 
 /// Names of columns of longitudes and latitudes.
-[[nodiscard]] inline bool are_degrees(std::string_view x_name) { return lower_case(std::string(x_name)).starts_with("lon"); }
+[[nodiscard]] inline bool are_degrees(std::string_view x_name) {
+  const std::string name = lower_case(std::string(x_name));
+  return name.starts_with("lon") || name == "lng";
+}
 
 /// The column that has one of these names, in capitals or not. Two would leave open which one is meant: then `refuse` is called
 /// with what is wrong; it throws.
