@@ -42,6 +42,8 @@ constexpr ForeignFormat plain_text{"a plain text", "give the file of the city th
 constexpr ForeignFormat inspire{"GML of INSPIRE's buildings",
                                 "ask the publisher for CityGML or footprints, or convert it with hale studio"};
 constexpr ForeignFormat energy_model{"a model of one building for simulations (gbXML, IDF)", "export its bodies as OBJ"};
+constexpr ForeignFormat overpass{"JSON as Overpass answers (\"elements\")",
+                                 "ask Overpass for [out:xml] and name the answer .osm, or make GeoJSON of it by osmtogeojson"};
 constexpr ForeignFormat document{"a document", "give the data that it shows"};
 
 /// The first row that fits counts.
@@ -65,6 +67,8 @@ constexpr std::array rows{
     Row{{.magic = "ply"}, point_cloud},
     Row{{.ending = ".e57"}, point_cloud},
     Row{{.words = {"inspire.ec.europa.eu/schemas/bu", "FeatureCollection"}}, inspire},
+    Row{{.words = {"\"elements\"", "\"osm3s\"", "{"}}, overpass},
+    Row{{.words = {"\"elements\"", "\"generator\"", "Overpass"}}, overpass},
     Row{{.words = {"<gbXML"}}, energy_model},
     Row{{.ending = ".idf"}, energy_model},
     Row{{.magic = "%PDF"}, document},

@@ -278,6 +278,8 @@ TEST(ForeignFormats, AreRefusedWithWhatConvertsThem) {
         Foreign{"a.fbx", "Kaydara FBX Binary", "assimp export"},
         Foreign{"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n", "a point cloud"},
         Foreign{"a.las", "LASF\1", "PDAL"},
+        Foreign{"a.json", R"({"version":0.6,"osm3s":{"timestamp_osm_base":"2026"},"elements":[]})", "osmtogeojson"},
+        Foreign{"b.json", R"({"version":0.6,"generator":"Overpass API","elements":[]})", "[out:xml]"},
         Foreign{"a.xml", R"(<?xml version="1.0"?><gbXML xmlns="http://www.gbxml.org/schema">)", "gbXML"},
         Foreign{"a.gml", R"(<gml:FeatureCollection xmlns:bu="http://inspire.ec.europa.eu/schemas/bu-core2d/4.0">)", "INSPIRE"},
         Foreign{"a.parquet", "PAR1\1", "GeoPackage"}, Foreign{"plan.pdf", "%PDF-1.7", "a document"}}) {
