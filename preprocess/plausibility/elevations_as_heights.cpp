@@ -26,6 +26,9 @@ constexpr double lowest_house_m = 1.5, highest_house_m = 40.0, largest_house_m2 
 /// Files write elevations to a centimetre.
 constexpr double same_m = 0.02, metres_in_foot = 0.3048;
 constexpr std::size_t enough_of_one_outline = 3, enough_slender = 5, enough_houses = 5;
+/// Fewer buildings than that may be chimneys, but none is as high as this.
+constexpr std::size_t fewest_slender = 2;
+constexpr double highest_chimney_m = 420.0;
 
 template <class Holds>
 bool nearly_all(std::span<const SaidHeight> heights, const Holds& holds) {
@@ -46,6 +49,8 @@ bool is_called_elevation(std::string_view field) {
   return std::any_of(parts.begin(), parts.end(), [&](const char* part) { return name.find(part) != name.npos; });
 }
 
+constexpr std::string_view would_make = "would make all buildings ";
+
 bool is_too_slender(const SaidHeight& h) {
   return h.height_m > lowest_slender_m && h.height_m > slenderness * std::sqrt(h.plan_m2);
 }
@@ -54,6 +59,8 @@ bool is_a_house_above_its_ground(const SaidHeight& h) {
   const double above_m = h.height_m - h.ground_m.value_or(std::numeric_limits<double>::infinity());
   return h.ground_m.value_or(0.0) >= lowest_of_elevations_m && lowest_house_m <= above_m && above_m <= highest_house_m;
 }
+
+bool is_above_all_chimneys(const SaidHeight& h) { return h.height_m > highest_chimney_m && is_too_slender(h); }
 
 bool are_houses(std::span<const SaidHeight> heights) {
   const auto small =
@@ -65,13 +72,15 @@ bool are_houses(std::span<const SaidHeight> heights) {
 
 std::optional<std::string> sign_of_elevations(std::span<const SaidHeight> heights, std::string_view field) {
   const std::size_t count = heights.size();
+  if (count < enough_slender && count >= fewest_slender && nearly_all(heights, is_above_all_chimneys))
+    return std::string(would_make) + "higher than any chimney";
   if (count < enough_of_one_outline) return std::nullopt;
   const bool is_called_so = is_called_elevation(field), is_high = nearly_all(heights, is_as_high_as_an_elevation);
   if ((is_called_so || is_high) && nearly_all(heights, lies_at_its_height))
     return "is the elevation at which the outlines of the buildings lie";
   if (is_called_so && is_high) return "is called an elevation, and would make all buildings higher than 20 m";
   if (count >= enough_slender && nearly_all(heights, is_too_slender))
-    return "would make all buildings six times as high as they are wide";
+    return std::string(would_make) + "six times as high as they are wide";
   if (count >= enough_houses && are_houses(heights))
     return "is for nearly all buildings the elevation of a house on their ground";
   return std::nullopt;
@@ -81,7 +90,9 @@ void require_heights(const std::string& source, const std::string& field, std::s
   if (const auto sign = sign_of_elevations(heights, field))
     throw InputError(
         source + ": " + field + " holds elevations, no heights: it " + *sign + ". Give --roof-field " + field +
-        " in place of --height-field; the ground comes from --terrain DEM, or from a field that --base-field names.");
+        " in place of --height-field; the ground comes from --terrain DEM, or from a field that --base-field names." +
+        (sign->starts_with(would_make) ? " If they are heights in another unit, such as centimetres, convert them to metres."
+                                       : ""));
 }
 
 namespace {

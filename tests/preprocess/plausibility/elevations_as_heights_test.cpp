@@ -81,6 +81,20 @@ TEST(ElevationsAsHeights, AllBuildingsWouldBeNeedles) {
       << "Manhattan";
 }
 
+TEST(ElevationsAsHeights, OfAFewBuildingsAreAboveAllChimneys) {
+  for (const int count : {2, 3, 4}) {
+    EXPECT_THAT(sign(SmallTown{.ground_m = 520.0, .count = count}.table(elevation)), HasSubstr("higher than any chimney"));
+    EXPECT_EQ(sign(SmallTown{.least_m = 150.0, .most_m = 419.0, .least_m2 = 60.0, .count = count}.table(height)), "")
+        << "chimneys of a power station";
+  }
+  EXPECT_EQ(sign(SmallTown{.least_m = 430.0, .most_m = 830.0, .least_m2 = 20e3, .most_m2 = 30e3, .count = 2}.table(height)), "");
+}
+
+TEST(ElevationsAsHeights, MayBeHeightsInAnotherUnit) {
+  const auto heights = SmallTown{.least_m = 600.0, .most_m = 900.0}.table(height);
+  EXPECT_THAT(refusal_of<InputError>([&] { require_heights("a.shp", "h", heights); }), HasSubstr("convert them to metres"));
+}
+
 TEST(ElevationsAsHeights, StandOnTheirGround) {
   EXPECT_THAT(sign(SmallTown{.ground_m = 40.0}.table(elevation_on_ground)), HasSubstr("elevation of a house"));
   EXPECT_EQ(sign(SmallTown{.ground_m = 40.0}.table(height_on_ground)), "");
