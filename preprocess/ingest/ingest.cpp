@@ -86,6 +86,9 @@ SourceCity ingest_mesh(const Mesh& mesh, const InputFile& file, const IngestSett
   std::vector<std::string> notes = notes_of(placement, file, settings.obj_origin.has_value());
   if (!rest.ground_faces.empty())
     notes.push_back(file.name + ": faces that are ground by their names: " + text_of(rest.ground_faces));
+  if (!rest.sheet_faces.empty())
+    notes.push_back(file.name +
+                    ": faces that are ground, since they lie below buildings and have no walls: " + text_of(rest.sheet_faces));
   // Meshes have x to the east, whatever the order of axes in the definition of the CRS
   return {.source = file.name,
           .crs = {placement.crs, true, false},

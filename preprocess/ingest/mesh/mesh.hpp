@@ -21,6 +21,9 @@ struct MeshFace {
   std::uint64_t line = 0;                             ///< for messages: Mesh::places says what it counts
 };
 
+/// A point with its z upright.
+[[nodiscard]] inline Point3d upright(UpAxis up, const Point3d& p) { return up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p; }
+
 /// The content of a file of polygons, in its order and with its axes, without textures and normals.
 struct Mesh {
   PagedArray<Point3d> vertices;      ///< a coordinate that cannot be read is NaN

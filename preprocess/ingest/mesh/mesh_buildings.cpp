@@ -10,6 +10,7 @@
 
 #include "base/cancellation.hpp"
 #include "ingest/files/input_file.hpp"
+#include "ingest/mesh/ground_sheets.hpp"
 #include "ingest/mesh/mesh_classes.hpp"
 #include "ingest/mesh/planar_faces.hpp"
 
@@ -85,9 +86,7 @@ FacesByBuilding group_faces(const Mesh& mesh, const std::vector<bool>& is_buildi
   return sorted;
 }
 
-Point3d placed(const MeshFrame& frame, const Point3d& p) {
-  return frame.origin + (frame.up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p);
-}
+Point3d placed(const MeshFrame& frame, const Point3d& p) { return frame.origin + upright(frame.up, p); }
 
 /// "line 12"
 std::string place_of(const Mesh& mesh, std::uint64_t line) { return std::string(mesh.places) + ' ' + std::to_string(line); }
@@ -227,14 +226,29 @@ std::vector<bool> sort_out(const Mesh& mesh, const MeshFrame& frame, std::span<c
   return is_building;
 }
 
+/// Takes ground out of the buildings that its name does not tell.
+void sort_out_sheets(const Mesh& mesh, const MeshFrame& frame, const FacesByBuilding& sorted, CityModelBuilder& builder,
+                     std::vector<bool>& is_building, MeshRest& rest) {
+  for (const std::size_t b : find_ground_sheets(mesh, frame.up, {sorted.faces, sorted.begin}))
+    for (std::size_t k = sorted.begin[b]; k < sorted.begin[b + 1]; ++k) {
+      const std::uint32_t face = sorted.faces[k];
+      is_building[face] = false;
+      add_ground(mesh, mesh.faces[face], frame, builder, rest.relief_points);
+      ++rest.sheet_faces[sorted.ids[b]];
+    }
+}
+
 }  // namespace
 
 MeshRest add_buildings(const Mesh& mesh, const MeshFrame& frame, std::span<const std::string> ground_names,
                        CityModelBuilder& builder, const std::stop_token& stop) {
   report_unread(mesh, builder);
   MeshRest rest;
-  const std::vector<bool> is_building = sort_out(mesh, frame, ground_names, builder, rest);
-  add_in_batches(mesh, group_faces(mesh, is_building), frame, stop, builder);
+  std::vector<bool> is_building = sort_out(mesh, frame, ground_names, builder, rest);
+  FacesByBuilding sorted = group_faces(mesh, is_building);
+  sort_out_sheets(mesh, frame, sorted, builder, is_building, rest);
+  if (!rest.sheet_faces.empty()) sorted = group_faces(mesh, is_building);
+  add_in_batches(mesh, sorted, frame, stop, builder);
   return rest;
 }
 

@@ -26,13 +26,14 @@ struct MeshFrame {
 struct MeshRest {
   std::vector<Point3d> relief_points;                 ///< corners of its ground
   std::map<std::string, std::uint64_t> ground_faces;  ///< their number, by the name that says what they are
+  std::map<std::string, std::uint64_t> sheet_faces;   ///< of ground that is known by its form (find_ground_sheets), by its name
   SkippedFeatures skipped;
 };
 
 /// Adds the buildings of a mesh. A building is a group; an object if there is more than one; or, without either, a connected
 /// component. A repeated name begins another building. Coplanar neighboring faces share a surface number. Works on all threads of
-/// the task arena that it is called in. Returns what the names of groups, objects and materials say to be no building;
-/// `ground_names` are the user's. Throws Cancelled when a stop is requested.
+/// the task arena that it is called in. Returns what the names of groups, objects and materials, or their form, say to be no
+/// building; `ground_names` are the user's. Throws Cancelled when a stop is requested.
 MeshRest add_buildings(const Mesh& mesh, const MeshFrame& frame, std::span<const std::string> ground_names,
                        CityModelBuilder& builder, const std::stop_token& stop = {});
 

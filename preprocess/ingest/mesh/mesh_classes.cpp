@@ -12,8 +12,13 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array known_ground_names{"terrain"sv, "ground"sv, "relief"sv, "tinrelief"sv, "dtm"sv,       "dem"sv,
-                                        "landuse"sv, "road"sv,   "roads"sv,  "water"sv,     "waterbody"sv, "transportation"sv};
+constexpr std::array known_ground_names{"terrain"sv,  "ground"sv, "relief"sv,  "tinrelief"sv, "dtm"sv,       "dem"sv,
+                                        "landuse"sv,  "road"sv,   "roads"sv,   "water"sv,     "waterbody"sv, "transportation"sv,
+                                        "grass"sv,    "street"sv, "streets"sv, "sidewalk"sv,  "pavement"sv,  "gelände"sv,
+                                        "gelaende"sv, "wasser"sv, "straße"sv,  "strasse"sv,   "boden"sv};
+/// Words that say of what kind a geometry is, beside the name of what it shows: Terrain_mesh, water surface.
+constexpr std::array words_of_geometry{"mesh"sv, "surface"sv, "surfaces"sv, "plane"sv,
+                                       "tin"sv,  "model"sv,   "polygons"sv, "layer"sv};
 constexpr std::array other_names{"tree"sv,       "trees"sv,         "forest"sv,
                                  "vegetation"sv, "plantcover"sv,    "solitaryvegetationobject"sv,
                                  "furniture"sv,  "cityfurniture"sv, "separation"sv};
@@ -21,11 +26,15 @@ constexpr std::array other_names{"tree"sv,       "trees"sv,         "forest"sv,
 /// Bytes beyond ASCII are letters of other scripts, in UTF-8.
 bool is_letter(char c) { return ('a' <= c && c <= 'z') || (c & 0x80) != 0; }
 
-/// The first word of a name of which nothing else is a word: numbers and signs may follow.
+/// The first word of a name of which nothing else is a word but one of a geometry: numbers and signs may follow.
 std::string only_word_of(std::string_view name) {
   const std::string lower = lower_case(name);
   const auto end = std::find_if_not(lower.begin(), lower.end(), is_letter);
-  return std::any_of(end, lower.end(), is_letter) ? "" : std::string(lower.begin(), end);
+  const auto second = std::find_if(end, lower.end(), is_letter);
+  const auto behind = std::find_if_not(second, lower.end(), is_letter);
+  const bool is_alone =
+      second == lower.end() || std::ranges::find(words_of_geometry, std::string(second, behind)) != words_of_geometry.end();
+  return is_alone && std::none_of(behind, lower.end(), is_letter) ? std::string(lower.begin(), end) : "";
 }
 
 /// Whether a name is that of a user, behind which numbers and signs may follow. The user's may have several words.
