@@ -25,6 +25,23 @@ double area_of(const OGRGeometry& geometry) {
              : 0.0;
 }
 
+void add_polygons_of(const OGRGeometry& geometry, OGRMultiPolygon& all) {
+  if (OGR_GT_IsSubClassOf(wkbFlatten(geometry.getGeometryType()), wkbPolygon)) {
+    all.addGeometry(&geometry);
+  } else if (OGR_GT_IsSubClassOf(wkbFlatten(geometry.getGeometryType()), wkbGeometryCollection)) {
+    for (const OGRGeometry* member : *geometry.toGeometryCollection()) add_polygons_of(*member, all);
+  }
+}
+
+/// The area that geometries cover together: parts of a tower stand on each other. Empty where they are too damaged to tell.
+std::optional<double> plan_of(const std::vector<const OGRGeometry*>& geometries) {
+  OGRMultiPolygon all;
+  for (const OGRGeometry* geometry : geometries) add_polygons_of(*geometry, all);
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  const OGRGeometryUniquePtr together(all.UnionCascaded());
+  return together ? std::optional(area_of(*together)) : std::nullopt;
+}
+
 }  // namespace
 
 FeatureTable::FeatureTable(OGRLayer& layer) {
@@ -34,7 +51,6 @@ FeatureTable::FeatureTable(OGRLayer& layer) {
     if (is_collection(names_.back())) collections_.push_back(field);
   }
   columns_ = names_.size();
-  for (const std::string& name : names_) tag_names_.push_back(lower_case(name));
   const std::vector<std::string> column_names = names_;
   for (const std::string& tag : known_tags())
     if (!collections_.empty() && std::find(column_names.begin(), column_names.end(), tag) == column_names.end())
@@ -74,14 +90,21 @@ FieldValue FeatureTable::Row::value(std::size_t field) const {
   return {std::nullopt, feature_.GetFieldAsString(column), true};
 }
 
+std::optional<std::size_t> FeatureTable::column_of(std::string_view tag) const {
+  const auto known = column_of_tag_.find(tag);
+  if (known != column_of_tag_.end()) return known->second;
+  const auto end = names_.begin() + static_cast<std::ptrdiff_t>(columns_);
+  const auto found = std::find_if(names_.begin(), end, [&](const std::string& name) { return is_column_of(name, tag); });
+  const auto column = found == end ? std::nullopt : std::optional(static_cast<std::size_t>(found - names_.begin()));
+  return column_of_tag_.emplace(tag, column).first->second;
+}
+
 std::optional<std::string> FeatureTable::Row::tag(std::string_view name) const {
   if (auto found = collected(name)) return found;
-  for (std::size_t column = 0; column < table_.columns_; ++column) {
-    if (table_.tag_names_[column] != name) continue;
-    const int n = static_cast<int>(column);
-    return feature_.IsFieldSetAndNotNull(n) ? std::optional<std::string>(feature_.GetFieldAsString(n)) : std::nullopt;
-  }
-  return std::nullopt;
+  const auto column = table_.column_of(name);
+  if (!column) return std::nullopt;
+  const int n = static_cast<int>(*column);
+  return feature_.IsFieldSetAndNotNull(n) ? std::optional<std::string>(feature_.GetFieldAsString(n)) : std::nullopt;
 }
 
 FeatureRole FeatureTable::Row::role() const {
@@ -96,7 +119,9 @@ PartsOfLayer::PartsOfLayer(OGRLayer& layer, const FeatureTable& table) {
     if (geometry == nullptr || FeatureTable::Row(table, *feature).role() != FeatureRole::part) continue;
     const OGRGeometryUniquePtr inside(OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(geometry))));
     if (inside && !inside->IsEmpty())
-      parts_.push_back({{inside->toPoint()->getX(), inside->toPoint()->getY()}, area_of(*geometry)});
+      parts_.push_back({{inside->toPoint()->getX(), inside->toPoint()->getY()},
+                        area_of(*geometry),
+                        std::shared_ptr<const OGRGeometry>(feature->StealGeometry())});
   }
   std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.inside.x < b.inside.x; });
 }
@@ -107,13 +132,17 @@ bool PartsOfLayer::fill(const OGRGeometry& outline) const {
   OGREnvelope box;
   outline.getEnvelope(&box);
   double filled = 0.0;
+  std::vector<const OGRGeometry*> inside;
   const auto first =
       std::lower_bound(parts_.begin(), parts_.end(), box.MinX, [](const Part& part, double x) { return part.inside.x < x; });
   for (auto part = first; part != parts_.end() && part->inside.x <= box.MaxX; ++part)
     if (box.MinY <= part->inside.y && part->inside.y <= box.MaxY &&
-        OGRPoint(part->inside.x, part->inside.y).Within(&outline) != 0)
+        OGRPoint(part->inside.x, part->inside.y).Within(&outline) != 0) {
       filled += part->area;
-  return filled >= most_of_it * area_of(outline) && filled > 0.0;
+      inside.push_back(part->geometry.get());
+    }
+  const double enough = most_of_it * area_of(outline);
+  return filled >= enough && filled > 0.0 && plan_of(inside).value_or(filled) >= enough;
 }
 
 }  // namespace farlod::ingest

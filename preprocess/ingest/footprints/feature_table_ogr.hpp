@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,9 +53,11 @@ class FeatureTable {
   };
 
  private:
+  [[nodiscard]] std::optional<std::size_t> column_of(std::string_view tag) const;
+
   std::vector<std::string> names_;
-  std::vector<std::string> tag_names_;  ///< of the columns, in lower case
   std::size_t columns_ = 0;
+  mutable std::map<std::string, std::optional<std::size_t>, std::less<>> column_of_tag_;  ///< of those that were asked for
   std::vector<int> collections_;
   std::optional<BuildingTags> tags_;
 };
@@ -65,13 +68,14 @@ class PartsOfLayer {
   /// Reads the layer once, if it may have parts.
   PartsOfLayer(OGRLayer& layer, const FeatureTable& table);
 
-  /// Whether parts fill most of an area in the plan.
+  /// Whether parts cover most of an area in the plan. Where some stand on others, their plan counts once.
   [[nodiscard]] bool fill(const OGRGeometry& outline) const;
 
  private:
   struct Part {
     Point2d inside;  ///< a point in it
     double area = 0.0;
+    std::shared_ptr<const OGRGeometry> geometry;
   };
   std::vector<Part> parts_;  ///< by the x of their points
 };

@@ -47,6 +47,11 @@ class BuildingTags {
 /// Fields that hold further tags of a feature, as GDAL's driver for OpenStreetMap and osm2pgsql write them.
 inline constexpr std::string_view tag_collections[] = {"other_tags", "all_tags", "tags"};
 
+/// Whether a column holds what is known by this name, such as `building:levels`: it has the name, in capitals or not, or the name
+/// as databases and Shapefiles write it: with `_` for `:` (building_levels), and cut to ten characters (building_l). No name is
+/// cut where two different things would have the same one.
+[[nodiscard]] bool is_column_of(std::string_view column, std::string_view known);
+
 /// The tags that the heights and roles of buildings are found in, by name.
 [[nodiscard]] const std::vector<std::string>& known_tags();
 

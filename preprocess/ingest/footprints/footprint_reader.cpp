@@ -12,6 +12,8 @@
 
 #include "base/expects.hpp"
 #include "base/lower_case.hpp"
+#include "ingest/footprints/feature_tags.hpp"
+#include "plausibility/stand_ins.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -115,7 +117,7 @@ constexpr std::array<std::string_view, 1> roof_storeys_names{"roof:levels"};
 /// The height above the ground at which an elevated part begins, such as an arch or a skyway.
 constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
 /// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
-constexpr std::array<std::string_view, 1> lowest_storeys_names{"building:min_level"};
+constexpr std::array<std::string_view, 2> lowest_storeys_names{"building:min_level", "min_floor"};
 
 /// The unit of a column of numbers: its name ends with the unit, or it is in metres.
 LengthUnit unit_of(const std::string& field) {
@@ -128,15 +130,14 @@ LengthUnit unit_of(const std::string& field) {
 std::vector<std::size_t> fields_called(const std::vector<std::string>& names, const std::optional<std::string>& asked,
                                        std::span<const std::string_view> known) {
   std::vector<std::size_t> fields;
-  const auto add = [&](const std::string& wanted) {
-    const auto found =
-        std::find_if(names.begin(), names.end(), [&](const std::string& name) { return lower_case(name) == wanted; });
+  const auto add = [&](const auto& is_it) {
+    const auto found = std::find_if(names.begin(), names.end(), is_it);
     const auto field = static_cast<std::size_t>(found - names.begin());
     if (found != names.end() && std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
   };
-  if (asked) add(lower_case(*asked));
+  if (asked) add([&](const std::string& name) { return lower_case(name) == lower_case(*asked); });
   FARLOD_EXPECTS(!asked || fields.size() == 1);
-  for (const std::string_view name : known) add(std::string(name));
+  for (const std::string_view wanted : known) add([&](const std::string& name) { return is_column_of(name, wanted); });
   return fields;
 }
 
@@ -211,10 +212,10 @@ std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::
     if (!value.is_set) continue;
     const std::optional<double> count = value.number ? value.number : number_from(value.text);
     if (!count || !std::isfinite(*count) || means_unknown(*count)) continue;
-    const bool counts_no_roof = lower_case(names_[field]) == levels_below_roof && !roof_storeys_.empty();
+    const bool counts_no_roof = is_column_of(names_[field], levels_below_roof) && !roof_storeys_.empty();
     const FieldValue roof = counts_no_roof ? value_of(roof_storeys_.front()) : FieldValue{};
     const double roof_count = roof.number ? *roof.number : number_from(roof.text).value_or(0.0);
-    return Height{(*count + roof_count) * floor_height_m_, said(names_[field], value), HeightSource::storeys};
+    return Height{(*count + std::max(roof_count, 0.0)) * floor_height_m_, said(names_[field], value), HeightSource::storeys};
   }
   return std::nullopt;
 }
@@ -242,12 +243,31 @@ std::string FootprintHeights::what_they_say(const std::vector<std::size_t>& fiel
   return text;
 }
 
+std::optional<Unraised> FootprintHeights::objection_to_base(const std::optional<Height>& base,
+                                                            const FieldLookup& value_of) const {
+  if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
+  if (has_no_base_at_zero_ && base->value_m == 0.0)
+    return Unraised{ProblemCode::no_height, base->said + ", and all others are far above that: it means \"unknown\""};
+  if (!may_be_elevation(base->value_m)) return no_elevation(base->said);
+  return std::nullopt;
+}
+
+void FootprintHeights::learn_bases(const std::vector<std::optional<float>>& bases_m) {
+  auto heights_m = bases_m;
+  const auto stand_ins = plausibility::take_out_stand_ins(heights_m, plausibility::HeightsOf::ground);
+  has_no_base_at_zero_ = std::any_of(stand_ins.begin(), stand_ins.end(), [](const auto& s) { return s.height_m == 0.0F; });
+}
+
+std::optional<double> FootprintHeights::base_m(const FieldLookup& value_of) const {
+  const auto base = length_in(base_, value_of);
+  return base ? std::optional(base->value_m) : std::nullopt;
+}
+
 std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& roof, const FieldLookup& value_of) const {
   if (!may_be_elevation(roof.value_m)) return no_elevation(roof.said);
   if (base_.empty()) return PrismExtent{roof.value_m - provisional_height_m, roof.value_m, HeightReference::down_to_ground};
   const std::optional<Height> base = length_in(base_, value_of);
-  if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
-  if (!may_be_elevation(base->value_m)) return no_elevation(base->said);
+  if (auto objection = objection_to_base(base, value_of)) return *objection;
   if (auto objection = objection_to(roof.value_m - base->value_m, roof.said + " and " + base->said)) return *objection;
   return PrismExtent{base->value_m, roof.value_m, HeightReference::elevation};
 }
@@ -262,15 +282,16 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
   const Foot foot = lowest_m > 0.0 ? Foot::above_ground : Foot::on_ground;
   if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, foot, height.field};
   const std::optional<Height> base = length_in(base_, value_of);
-  if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
-  if (!may_be_elevation(base->value_m)) return no_elevation(base->said);
+  if (auto objection = objection_to_base(base, value_of)) return *objection;
   return PrismExtent{
       base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source, foot, height.field};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {
-  if (const auto roof = length_in(roof_, value_of)) return below_roof(*roof, value_of);
-  if (const auto height = height_above_base(value_of)) return above_base(*height, value_of);
+  const auto roof = length_in(roof_, value_of),
+             height = roof && may_be_elevation(roof->value_m) ? std::nullopt : height_above_base(value_of);
+  if (height) return above_base(*height, value_of);
+  if (roof) return below_roof(*roof, value_of);
   std::vector<std::size_t> asked = roof_;
   asked.insert(asked.end(), heights_.begin(), heights_.end());
   asked.insert(asked.end(), storeys_.begin(), storeys_.end());

@@ -66,9 +66,9 @@ struct Unraised {
 ///   (2) the height: the field that the settings name, then those with a known name
 ///   (3) the number of storeys times their height: the field that the settings name, then those with a known name
 ///   (4) the default height
-/// A field that is empty or has no such number has no value; nor has one with a number that means unknown: by the settings, or
-/// because no building is as high (0, -1, -9999, 99999) and a later rule has another value. Names are compared without regard to
-/// case.
+/// A field that is empty or has no such number has no value; an elevation that lies nowhere on Earth gives way to (2) to (4); nor
+/// has one with a number that means unknown: by the settings, or because no building is as high (0, -1, -9999, 99999) and a later
+/// rule has another value. Names are compared without regard to case.
 class FootprintHeights {
  public:
   /// The fields that the settings name must be among the names.
@@ -77,6 +77,13 @@ class FootprintHeights {
   /// Whether there is any field with heights, or a default height.
   [[nodiscard]] bool can_tell() const;
   [[nodiscard]] std::variant<PrismExtent, Unraised> of(const FieldLookup& value_of) const;
+
+  /// Whether the settings name a field with elevations of bases.
+  [[nodiscard]] bool has_bases() const { return !base_.empty(); }
+  /// The elevation of a base, as the field has it.
+  [[nodiscard]] std::optional<double> base_m(const FieldLookup& value_of) const;
+  /// Learns from the bases of all features whether 0 means unknown among them, as it does among heights of a terrain.
+  void learn_bases(const std::vector<std::optional<float>>& bases_m);
 
  private:
   struct Height {
@@ -93,6 +100,7 @@ class FootprintHeights {
   [[nodiscard]] double lowest_part_m(const FieldLookup& value_of) const;
   [[nodiscard]] std::variant<PrismExtent, Unraised> below_roof(const Height& roof, const FieldLookup& value_of) const;
   [[nodiscard]] std::variant<PrismExtent, Unraised> above_base(const Height& height, const FieldLookup& value_of) const;
+  [[nodiscard]] std::optional<Unraised> objection_to_base(const std::optional<Height>& base, const FieldLookup& value_of) const;
   [[nodiscard]] std::string what_they_say(const std::vector<std::size_t>& fields, const FieldLookup& value_of) const;
 
   std::vector<std::string> names_;
@@ -100,6 +108,7 @@ class FootprintHeights {
   std::vector<double> unknown_;
   double floor_height_m_;
   std::vector<std::size_t> roof_, base_, heights_, storeys_, lowest_heights_, lowest_storeys_, roof_storeys_;
+  bool has_no_base_at_zero_ = false;
 };
 
 /// Reads footprints in any vector format that GDAL knows, and builds prisms of the heights that FootprintHeights finds. Of

@@ -23,6 +23,7 @@
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/layer_choice_ogr.hpp"
+#include "ingest/footprints/openstreetmap_areas_gdal.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "plausibility/elevations_as_heights.hpp"
 
@@ -118,6 +119,7 @@ class FootprintLayer {
     if (!holds_bodies_ && !heights_.can_tell())
       throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
                        ". Name the field with --height-field or --storeys-field, or with --roof-field where it holds "
+    if (heights_.has_bases()) learn_bases();
                        "elevations (and with --base-field those of the ground, or give a terrain), or give all one "
                        "--default-height" +
                        (others.empty() ? "." : "; or read another layer, by --layer: " + others + "."));
@@ -133,13 +135,15 @@ class FootprintLayer {
     for (const auto& [field, heights] : said_) plausibility::require_heights(builder_.source(), table_.names()[field], heights);
   }
 
-  /// For the user: how many heights are not measured ones.
-  [[nodiscard]] std::vector<std::string> notes(double floor_height_m) const {
+  /// For the user: which layer is read, if there are `others`, and how many heights are not measured ones.
+  [[nodiscard]] std::vector<std::string> notes(double floor_height_m, const std::string& others) const {
     std::vector<std::string> notes;
     std::ostringstream storeys;
     storeys << builder_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m << " m";
     if (raised_by_storeys_ > 0) notes.push_back(std::move(storeys).str());
     if (raised_by_default_ > 0)
+    if (!others.empty())
+      notes.push_back(builder_.source() + ": only the layer " + layer_.GetName() + " is read; --layer reads another: " + others);
       notes.push_back(builder_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
     return notes;
   }
@@ -190,6 +194,17 @@ class FootprintLayer {
     for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
       if (feature->GetGeometryRef() != nullptr && areas_of(*feature->GetGeometryRef()).is_body) return true;
     return false;
+  }
+
+  void learn_bases() {
+    std::vector<std::optional<float>> bases_m;
+    layer_.ResetReading();
+    for (Feature feature = next_feature(layer_); feature; feature = next_feature(layer_)) {
+      const FeatureTable::Row row(table_, *feature);
+      const auto base_m = heights_.base_m([&](std::size_t field) { return row.value(field); });
+      bases_m.push_back(base_m ? std::optional(static_cast<float>(*base_m)) : std::nullopt);
+    }
+    heights_.learn_bases(bases_m);
   }
 
   std::string id_of(const OGRFeature& feature) const {
@@ -356,14 +371,16 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
   if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
   CityModelBuilder builder(file.name, report);
   report_other_layers(*dataset, layer, builder);
-  FootprintLayer footprints(*layer, settings, other_layers(*dataset, layer), builder);
+  const std::string others = is_openstreetmap(*dataset) ? "" : other_layers(*dataset, layer);
+  FootprintLayer footprints(*layer, settings, others, builder);
+  const CPLConfigOptionSetter areas("OSM_CONFIG_FILE", file_of_openstreetmap_areas().c_str(), true);
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system
   return {.source = file.name,
           .crs = {wkt_of(layer->GetSpatialRef()), true, !footprints.holds_bodies()},
           .city = builder.take_city(),
           .skipped = footprints.skipped(),
-          .notes = footprints.notes(settings.floor_height_m),
+          .notes = footprints.notes(settings.floor_height_m, others),
           .owners_of_parts = footprints.owners_of_parts()};
 }
 

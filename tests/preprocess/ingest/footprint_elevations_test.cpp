@@ -57,5 +57,44 @@ TEST(FootprintElevations, AreOfferedWhereNoHeightIsKnown) {
               AllOf(HasSubstr("fields with numbers: Elevation"), HasSubstr("--roof-field"), HasSubstr("--base-field")));
 }
 
+/// A house with some fields of heights.
+std::string house(int n, const std::string& fields) {
+  const std::string x = std::to_string(11.0 + 0.001 * n), east = std::to_string(11.0001 + 0.001 * n);
+  return feature("\"id\":\"" + std::to_string(n) + "\"," + fields, "Polygon",
+                 "[[[" + x + ",48],[" + east + ",48],[" + east + ",48.0001],[" + x + ",48]]]");
+}
+
+TEST(FootprintElevations, BasesOfZeroAmongHighOnesAreUnknown) {
+  IngestSettings settings;
+  settings.footprints.base_field = "base";
+  settings.footprints.height_field = "h";
+  const auto read = [&](const std::string& first_base) {
+    return read_text(
+        "a.geojson",
+        collection({house(0, R"("h":9,"base":)" + first_base), house(1, R"("h":9,"base":512)"), house(2, R"("h":9,"base":515)")}),
+        settings);
+  };
+  const Reading r = read("0");
+  EXPECT_EQ(r.city().buildings().size(), 2U);
+  ASSERT_EQ(r.report.problems().size(), 1U);
+  EXPECT_EQ(r.report.problems()[0].code, ProblemCode::no_height);
+  EXPECT_THAT(r.report.problems()[0].detail, HasSubstr("base is 0, and all others are far above that"));
+  EXPECT_EQ(read("499").city().buildings().size(), 3U);
+}
+
+TEST(FootprintElevations, RoofsThatLieNowhereGiveWayToOtherHeights) {
+  IngestSettings settings;
+  settings.footprints.base_field = "base";
+  settings.footprints.roof_field = "roof";
+  const std::vector<std::string> houses{house(0, R"("roof":-9999,"base":500,"levels":4)"),
+                                        house(1, R"("roof":509,"base":500,"levels":9)")};
+  const Reading r = read_text("a.geojson", collection(houses), settings);
+  ASSERT_EQ(r.city().buildings().size(), 2U);
+  double highest = 0.0;
+  for (const Point3d& p : r.city().points_of(r.city().buildings()[0])) highest = std::max(highest, p.z);
+  EXPECT_EQ(highest, 512.0);
+  EXPECT_TRUE(r.codes().empty());
+}
+
 }  // namespace
 }  // namespace farlod::ingest::test
