@@ -32,6 +32,10 @@ namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
+bool is_ascii(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; });
+}
+
 bool is_set(const OGRFeature& feature, int field) { return field >= 0 && feature.IsFieldSetAndNotNull(field); }
 
 bool is_length(const FieldValue& value) { return value.number || (value.is_set && length_m_from(value.text)); }
@@ -115,11 +119,11 @@ class FootprintLayer {
         heights_(table_.names(), with_fields_checked(settings)) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
+    if (heights_.has_bases()) learn_bases();
     holds_bodies_ = find_bodies();
     if (!holds_bodies_ && !heights_.can_tell())
       throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
                        ". Name the field with --height-field or --storeys-field, or with --roof-field where it holds "
-    if (heights_.has_bases()) learn_bases();
                        "elevations (and with --base-field those of the ground, or give a terrain), or give all one "
                        "--default-height" +
                        (others.empty() ? "." : "; or read another layer, by --layer: " + others + "."));
@@ -138,12 +142,12 @@ class FootprintLayer {
   /// For the user: which layer is read, if there are `others`, and how many heights are not measured ones.
   [[nodiscard]] std::vector<std::string> notes(double floor_height_m, const std::string& others) const {
     std::vector<std::string> notes;
+    if (!others.empty())
+      notes.push_back(builder_.source() + ": only the layer " + layer_.GetName() + " is read; --layer reads another: " + others);
     std::ostringstream storeys;
     storeys << builder_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m << " m";
     if (raised_by_storeys_ > 0) notes.push_back(std::move(storeys).str());
     if (raised_by_default_ > 0)
-    if (!others.empty())
-      notes.push_back(builder_.source() + ": only the layer " + layer_.GetName() + " is read; --layer reads another: " + others);
       notes.push_back(builder_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
     return notes;
   }
@@ -169,31 +173,27 @@ class FootprintLayer {
   void check_field(const std::optional<std::string>& name, const char* option) {
     const auto is_it = [&](const std::string& field) { return lower_case(field) == lower_case(*name); };
     if (!name || std::any_of(table_.names().begin(), table_.names().end(), is_it)) return;
+    const bool may_be_misread = layer_.GetMetadata("SHAPEFILE") != nullptr && !is_ascii(*name);
     throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_, table_) +
-                     "). Give one of them as " + option + ".");
+                     "). Give one of them as " + option +
+                     (may_be_misread ? ", or the encoding of their names by --encoding where they look wrong." : "."));
   }
 
   /// Names and ids go into messages and packages, which are UTF-8.
   void require_texts() {
     layer_.ResetReading();
     const Feature first = next_feature(layer_);
-    bool all = true;
     for (std::size_t f = 0; f < table_.names().size(); ++f) {
-      all = all && CPLIsUTF8(table_.names()[f].c_str(), -1) != 0;
-      if (first) all = all && CPLIsUTF8(FeatureTable::Row(table_, *first).value(f).text.c_str(), -1) != 0;
+      require_text(table_.names()[f]);
+      if (first) require_text(FeatureTable::Row(table_, *first).value(f).text);
     }
-    if (!all)
+  }
+
+  void require_text(const std::string& text) const {
+    if (CPLIsUTF8(text.c_str(), -1) == 0)
       throw InputError(builder_.source() +
                        ": its names and texts are not UTF-8: say what they are in, such as --encoding GBK or CP1252, or give it "
                        "a .cpg file that says so.");
-  }
-
-  bool find_bodies() {
-    layer_.ResetReading();
-    Feature feature = next_feature(layer_);
-    for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
-      if (feature->GetGeometryRef() != nullptr && areas_of(*feature->GetGeometryRef()).is_body) return true;
-    return false;
   }
 
   void learn_bases() {
@@ -205,6 +205,14 @@ class FootprintLayer {
       bases_m.push_back(base_m ? std::optional(static_cast<float>(*base_m)) : std::nullopt);
     }
     heights_.learn_bases(bases_m);
+  }
+
+  bool find_bodies() {
+    layer_.ResetReading();
+    Feature feature = next_feature(layer_);
+    for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
+      if (feature->GetGeometryRef() != nullptr && areas_of(*feature->GetGeometryRef()).is_body) return true;
+    return false;
   }
 
   std::string id_of(const OGRFeature& feature) const {
@@ -220,6 +228,7 @@ class FootprintLayer {
 
   void read_feature(const OGRFeature& feature) {
     const std::string id = id_of(feature);
+    require_text(id);
     const OGRGeometry* geometry = feature.GetGeometryRef();
     if (geometry == nullptr || geometry->IsEmpty()) {
       builder_.add_problem_at(id, ProblemCode::no_geometry, "the feature has no geometry");
@@ -262,6 +271,7 @@ class FootprintLayer {
     const FeatureTable::Row row(table_, feature);
     const auto answer = heights_.of([&](std::size_t field) { return row.value(field); });
     if (const auto* reason = std::get_if<Unraised>(&answer)) {
+      require_text(reason->detail);
       builder_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
       return;
     }
@@ -362,6 +372,7 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
 
 SourceCity read_footprints(const InputFile& file, const FootprintSettings& settings, Report& report) {
   GdalErrors messages;
+  const CPLConfigOptionSetter areas("OSM_CONFIG_FILE", file_of_openstreetmap_areas().c_str(), true);
   const CPLConfigOptionSetter encoding("SHAPE_ENCODING", settings.encoding ? settings.encoding->c_str() : nullptr, true);
   const GDALDatasetUniquePtr dataset = open(file, messages);
   // Else GDAL keeps all points and lines in memory until somebody reads them
@@ -373,7 +384,6 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
   report_other_layers(*dataset, layer, builder);
   const std::string others = is_openstreetmap(*dataset) ? "" : other_layers(*dataset, layer);
   FootprintLayer footprints(*layer, settings, others, builder);
-  const CPLConfigOptionSetter areas("OSM_CONFIG_FILE", file_of_openstreetmap_areas().c_str(), true);
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system
   return {.source = file.name,
