@@ -27,10 +27,10 @@ bool has_main_key(const TagLookup& tag) {
   return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return tag(key).has_value(); });
 }
 
-/// Values of `building` that say that there is none, or not any more, or not yet.
+/// Values of `building` that say that there is none, or not any more, or not yet; and what programs write for no value.
 bool is_denied(const std::string& value) {
-  constexpr std::array<std::string_view, 9> denials{"no",    "demolished", "razed",   "removed",  "destroyed",
-                                                    "false", "proposed",   "planned", "collapsed"};
+  constexpr std::array<std::string_view, 12> denials{"no",       "demolished", "razed",     "removed", "destroyed", "false",
+                                                     "proposed", "planned",    "collapsed", "none",    "null",      "nan"};
   return value.empty() || std::find(denials.begin(), denials.end(), lower_case(value)) != denials.end();
 }
 

@@ -55,8 +55,9 @@ std::optional<double> take_number(std::string_view& text) {
 
 std::optional<double> unit_m(std::string_view unit, LengthUnit plain) {
   if (unit.empty()) return metres_in(plain);
+  const std::string lower = lower_case(std::string(unit));
   for (const UnitName& name : unit_names)
-    if (unit == name.text) return metres_in(name.unit);
+    if (lower == name.text) return metres_in(name.unit);
   return std::nullopt;
 }
 
@@ -275,10 +276,12 @@ std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& r
 std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& height, const FieldLookup& value_of) const {
   if (auto objection = objection_to(height.value_m, height.said)) return *objection;
   const double lowest_m = lowest_part_m(value_of);
-  if (lowest_m >= height.value_m)
+  if (lowest_m >= height.value_m) {
+    std::vector<std::size_t> lowest = lowest_heights_;
+    lowest.insert(lowest.end(), lowest_storeys_.begin(), lowest_storeys_.end());
     return Unraised{ProblemCode::height_not_positive,
-                    height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
-                        what_they_say(lowest_storeys_, value_of)};
+                    height.said + ", and it begins only above that: " + what_they_say(lowest, value_of)};
+  }
   const Foot foot = lowest_m > 0.0 ? Foot::above_ground : Foot::on_ground;
   if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, foot, height.field};
   const std::optional<Height> base = length_in(base_, value_of);

@@ -104,6 +104,22 @@ TEST(OpenStreetMapFile, ShapefilesCutTheNamesOfKeys) {
   EXPECT_THAT(buildings_of(read_file(file)), UnorderedElementsAre("1: 0 to 15", "2: 0 to 6"));
 }
 
+TEST(OpenStreetMapFile, ProgramsWriteWordsForNoValue) {
+  std::vector<std::string> features{feature(R"("osm_id":"1","building":"yes","height":"12 Meter")", "Polygon", block(0))};
+  for (const char* none : {"None", "nan", "NULL", ""})
+    features.push_back(feature(R"("osm_id":"2","height":"9","building":")" + std::string(none) + "\"", "Polygon", block(2)));
+  EXPECT_THAT(buildings_of(read_features(features)), UnorderedElementsAre("1: 0 to 12"));
+}
+
+TEST(OpenStreetMapFile, PartsThatBeginAboveTheirTopAreTold) {
+  const Reading r = read_features(
+      {feature(R"("osm_id":"1","building":"yes","height":"12","min_height":"12","building:min_level":null)", "Polygon", block(0)),
+       feature(R"("osm_id":"2","building":"yes","height":"3")", "Polygon", block(2))});
+  ASSERT_EQ(r.report.problems().size(), 1U);
+  EXPECT_EQ(r.report.problems()[0].detail,
+            "height is \"12\", and it begins only above that: min_height is \"12\", building:min_level is empty");
+}
+
 TEST(OpenStreetMapFile, ColumnsAreKnownByShorterNames) {
   for (const char* column : {"building:levels", "BUILDING_LEVELS", "building_l", "building:l"})
     EXPECT_TRUE(is_column_of(column, "building:levels")) << column;
