@@ -390,7 +390,7 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
           .crs = {wkt_of(layer->GetSpatialRef()), true, !footprints.holds_bodies()},
           .city = builder.take_city(),
           .skipped = footprints.skipped(),
-          .notes = footprints.notes(settings.floor_height_m, others),
+          .notes = footprints.notes(settings.floor_height_m, settings.layer ? "" : others),
           .owners_of_parts = footprints.owners_of_parts()};
 }
 
