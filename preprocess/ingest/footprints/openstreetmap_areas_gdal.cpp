@@ -20,7 +20,7 @@ constexpr std::string_view areas =
     "[other_relations]\nosm_id=yes\n";
 
 std::string written() {
-  const std::string name = "/vsimem/farlod_openstreetmap_areas.ini";
+  std::string name = "/vsimem/farlod_openstreetmap_areas.ini";
   VSILFILE* file = VSIFOpenL(name.c_str(), "wb");
   if (file == nullptr) return "";
   VSIFWriteL(areas.data(), 1, areas.size(), file);
