@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
-bool is_ascii(const std::string& text) {
+bool holds_ascii_alone(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; });
 }
 
@@ -173,7 +173,7 @@ class FootprintLayer {
   void check_field(const std::optional<std::string>& name, const char* option) {
     const auto is_it = [&](const std::string& field) { return lower_case(field) == lower_case(*name); };
     if (!name || std::any_of(table_.names().begin(), table_.names().end(), is_it)) return;
-    const bool may_be_misread = layer_.GetMetadata("SHAPEFILE") != nullptr && !is_ascii(*name);
+    const bool may_be_misread = layer_.GetMetadata("SHAPEFILE") != nullptr && !holds_ascii_alone(*name);
     throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_, table_) +
                      "). Give one of them as " + option +
                      (may_be_misread ? ", or the encoding of their names by --encoding where they look wrong." : "."));

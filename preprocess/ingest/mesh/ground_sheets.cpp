@@ -34,7 +34,7 @@ struct Cover {
 bool is_point(const Point3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 /// The corners of a face that are points.
-std::vector<Point3d> corners_of(const Mesh& mesh, UpAxis up, std::uint32_t face) {
+std::vector<Point3d> face_points(const Mesh& mesh, UpAxis up, std::uint32_t face) {
   std::vector<Point3d> corners;
   for (const std::int64_t corner :
        std::span(mesh.corners).subspan(mesh.faces[face].first_corner, mesh.faces[face].corner_count)) {
@@ -52,7 +52,7 @@ std::span<const std::uint32_t> faces_of(const FacesOfBuildings& buildings, std::
 Cover cover_of(const Mesh& mesh, UpAxis up, std::span<const std::uint32_t> faces) {
   Cover cover;
   for (const std::uint32_t face : faces) {
-    const std::vector<Point3d> corners = corners_of(mesh, up, face);
+    const std::vector<Point3d> corners = face_points(mesh, up, face);
     Point3d normal;
     for (std::size_t k = 2; k < corners.size(); ++k)
       normal = normal + 0.5 * cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
@@ -81,7 +81,7 @@ std::vector<double> heights_near(const Mesh& mesh, UpAxis up, std::span<const st
                                  const std::vector<Point3d>& points) {
   std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity()), heights(points.size());
   for (const std::uint32_t face : faces)
-    for (const Point3d& corner : corners_of(mesh, up, face))
+    for (const Point3d& corner : face_points(mesh, up, face))
       for (std::size_t n = 0; n < points.size(); ++n) {
         const double distance = std::hypot(corner.x - points[n].x, corner.y - points[n].y);
         if (distance >= nearest[n]) continue;

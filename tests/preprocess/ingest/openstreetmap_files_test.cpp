@@ -40,7 +40,7 @@ std::vector<std::string> buildings_of(const Reading& r) {
   return found;
 }
 
-Reading read_features(const std::vector<std::string>& features) { return read_text("a.geojson", collection(features)); }
+Reading read_all(const std::vector<std::string>& features) { return read_text("a.geojson", collection(features)); }
 
 TEST(OpenStreetMapFile, ClosedWaysThatArePartsAreAreas) {
   std::string nodes;
@@ -69,11 +69,11 @@ TEST(OpenStreetMapFile, TagsMayBeNestedInEachFeature) {
     return feature(R"("type":"way","id":)" + std::to_string(id) + R"(,"tags":{)" + tags + "}", "Polygon", block(x));
   };
   const Reading r =
-      read_features({nested(1, R"("landuse":"residential","building:levels":"1")", 0),
-                     nested(2, R"("building":"house","height":"7")", 1), nested(3, R"("building":"no","height":"9")", 2)});
+      read_all({nested(1, R"("landuse":"residential","building:levels":"1")", 0),
+                nested(2, R"("building":"house","height":"7")", 1), nested(3, R"("building":"no","height":"9")", 2)});
   EXPECT_THAT(buildings_of(r), UnorderedElementsAre("2: 0 to 7"));
   EXPECT_THAT(r.codes(), IsEmpty());
-  const Reading other = read_features({feature(R"("id":"a","height":4,"tags":"{\"use\":\"shed\"}")", "Polygon", block(0))});
+  const Reading other = read_all({feature(R"("id":"a","height":4,"tags":"{\"use\":\"shed\"}")", "Polygon", block(0))});
   EXPECT_THAT(buildings_of(other), UnorderedElementsAre("a: 0 to 4")) << "tags of somebody else";
 }
 
@@ -83,7 +83,7 @@ TEST(OpenStreetMapFile, PartsOfATowerCountOnceInThePlan) {
     features.push_back(feature(R"("@id":"p)" + std::to_string(n) + R"(","building:part":"yes","height":")" +
                                    std::to_string(20 + 10 * n) + R"(","min_height":")" + std::to_string(10 + 10 * n) + "\"",
                                "Polygon", block(0.1, 1)));
-  const Reading r = read_features(features);
+  const Reading r = read_all(features);
   EXPECT_EQ(r.city().buildings().size(), 10U) << "nine parts above each other cover a sixteenth of the hall";
 }
 
@@ -108,11 +108,11 @@ TEST(OpenStreetMapFile, ProgramsWriteWordsForNoValue) {
   std::vector<std::string> features{feature(R"("osm_id":"1","building":"yes","height":"12 Meter")", "Polygon", block(0))};
   for (const char* none : {"None", "nan", "NULL", ""})
     features.push_back(feature(R"("osm_id":"2","height":"9","building":")" + std::string(none) + "\"", "Polygon", block(2)));
-  EXPECT_THAT(buildings_of(read_features(features)), UnorderedElementsAre("1: 0 to 12"));
+  EXPECT_THAT(buildings_of(read_all(features)), UnorderedElementsAre("1: 0 to 12"));
 }
 
 TEST(OpenStreetMapFile, PartsThatBeginAboveTheirTopAreTold) {
-  const Reading r = read_features(
+  const Reading r = read_all(
       {feature(R"("osm_id":"1","building":"yes","height":"12","min_height":"12","building:min_level":null)", "Polygon", block(0)),
        feature(R"("osm_id":"2","building":"yes","height":"3")", "Polygon", block(2))});
   ASSERT_EQ(r.report.problems().size(), 1U);
@@ -131,9 +131,9 @@ TEST(OpenStreetMapFile, ColumnsAreKnownByShorterNames) {
 }
 
 TEST(Overture, PartsMayBeginAtAStorey) {
-  const Reading r = read_features(
-      {feature(R"("id":"p","building_id":"a","height":20.0,"min_floor":2,"roof_shape":"flat","is_underground":false)", "Polygon",
-               block(0))});
+  const Reading r =
+      read_all({feature(R"("id":"p","building_id":"a","height":20.0,"min_floor":2,"roof_shape":"flat","is_underground":false)",
+                        "Polygon", block(0))});
   EXPECT_THAT(buildings_of(r), UnorderedElementsAre("p: 6 to 20"));
 }
 
