@@ -4,8 +4,8 @@
 """Packages of each version of the format, and the sky view factors that each of them gives.
 
   golden.py check BIN     reads each package with the programs in BIN, and compares the values
-  golden.py add BIN       packs the town, without trees and with them, with the programs in BIN, and writes the packages, if their
-                          version is not here yet
+  golden.py add BIN       packs the town, with trees, with mountains and without both, with the programs in BIN, and writes the
+                          packages of each version that is not here yet
 """
 
 import csv
@@ -25,7 +25,8 @@ AREA = "500025,5500000,500030,5500004"
 KINDS = ("horizon", "box")
 PARTS = {"": [], "_partial": ["--area", AREA]}
 TREES = ["--trees", HERE / "trees.csv", "--canopy", HERE / "canopy.asc"]
-CANOPIES = ([], TREES)
+# What stands in and around the town, and the parts of KINDS that are packed with it
+TOWNS = {"": ([], PARTS), "_trees": (TREES, PARTS), "_mountains": (["--far-terrain", HERE / "mountains.asc"], ["_partial"])}
 # Another Embree may let one ray of 1,000 go the other way, and points outside of the grid are traced by all engines
 TOLERANCE = 0.0011
 EXIT_UNUSABLE = 3
@@ -74,26 +75,32 @@ def read_table(path: pathlib.Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def pack_town(binaries: pathlib.Path, kind: str, part: str, trees: list, packed: pathlib.Path) -> None:
-    made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1, "--align", "none",
-               "--far-map", kind, "--quiet", *PARTS[part], *trees)
-    if made.returncode != 0:
-        raise SystemExit(made.stderr)
+def pack_towns(binaries: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
+    """The packages of the town by these programs, in a folder of the caller's, each with its version in its name."""
+    packages = []
+    for kind, (town, (options, parts)) in itertools.product(KINDS, TOWNS.items()):
+        for part in parts:
+            packed = folder / "town.farlod"
+            made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1, "--align",
+                       "none", "--far-map", kind, "--quiet", *PARTS[part], *options)
+            if made.returncode != 0:
+                raise SystemExit(made.stderr)
+            packages.append(packed.rename(folder / f"version_{manifest_of(packed)['version']}_{kind}{part}{town}.farlod"))
+    return packages
 
 
 def add(binaries: pathlib.Path) -> None:
     with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
-        for kind, part, trees in itertools.product(KINDS, PARTS, CANOPIES):
-            packed = folder / "town.farlod"
-            pack_town(binaries, kind, part, trees, packed)
-            version = manifest_of(packed)["version"]
-            packed.rename(folder / f"version_{version}_{kind}{part}{'_trees' if trees else ''}.farlod")
-        if (HERE / f"version_{version}.zip").exists():
-            raise SystemExit(f"packages of version {version} are here already")
-        with zipfile.ZipFile(HERE / f"version_{version}.zip", "w", zipfile.ZIP_DEFLATED) as archive:
-            for path in sorted(path for path in folder.rglob("*") if path.is_file()):
-                archive.write(path, path.relative_to(folder))
+        packages = pack_towns(binaries, folder)
+        for version in sorted({re.match(r"version_\d+", package.name).group() for package in packages}):
+            if (HERE / f"{version}.zip").exists():
+                print(f"packages of {version} are here already")
+                continue
+            files = [path for package in packages if package.name.startswith(f"{version}_") for path in package.rglob("*")]
+            with zipfile.ZipFile(HERE / f"{version}.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+                for path in sorted(path for path in files if path.is_file()):
+                    archive.write(path, path.relative_to(folder))
 
 
 def differences(package: pathlib.Path, then: dict[tuple[str, str], dict[str, str]], now: dict[tuple[str, str, str], str]) -> list[str]:
@@ -131,6 +138,11 @@ def version_of(name: str) -> int:
     return {name: int(value) for name, value in re.findall(r"uint32_t (\w+_version) = (\d+);", layout)}[name]
 
 
+def newest_version() -> int:
+    """That of packages with a far terrain."""
+    return version_of("far_terrain_format_version")
+
+
 def check_kinds(version: int, packages: list[pathlib.Path]) -> list[str]:
     kinds = [f"version_{version}_{kind}" for kind in KINDS]
     return [f"no package of {kind}: see README.md" for kind in kinds if not any(p.stem.startswith(kind) for p in packages)]
@@ -142,7 +154,7 @@ def check_other_versions(binaries: pathlib.Path, package: pathlib.Path) -> list[
     found = []
     manifest = manifest_of(package)
     del manifest["xxh3"]
-    for version in (*range(1, version_of("oldest_format_version")), version_of("far_terrain_format_version") + 1):
+    for version in (*range(1, version_of("oldest_format_version")), newest_version() + 1):
         (package / "manifest.json").write_text(json.dumps(manifest | {"version": version}))
         table = package.parent / "o.csv"
         for program in (["farlod-info", package, "--check"], ["farlod-svf", package, "-o", table, "--at", "500001,5500022"]):
@@ -154,7 +166,7 @@ def check_other_versions(binaries: pathlib.Path, package: pathlib.Path) -> list[
 
 def check(binaries: pathlib.Path) -> None:
     found = []
-    for version in range(version_of("oldest_format_version"), version_of("format_version") + 1):
+    for version in range(version_of("oldest_format_version"), newest_version() + 1):
         with tempfile.TemporaryDirectory() as folder:
             packages = unpack(version, pathlib.Path(folder))
             found += check_kinds(version, packages) + check_packages(binaries, packages)

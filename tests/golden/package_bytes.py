@@ -12,7 +12,6 @@ versions than those that checksums.txt was made with. Far maps of the kind box a
 """
 
 import hashlib
-import itertools
 import pathlib
 import platform
 import re
@@ -89,13 +88,15 @@ def run(binaries: pathlib.Path, *arguments: object) -> None:
 
 
 def check_town(binaries: pathlib.Path, folder: pathlib.Path) -> Iterator[str]:
-    version = golden.version_of("format_version")
-    golden.unpack(version, folder / "then")
-    for kind, part, trees in itertools.product(golden.KINDS, golden.PARTS, golden.CANOPIES):
-        name = f"version_{version}_{kind}{part}{'_trees' if trees else ''}.farlod"
-        golden.pack_town(binaries, kind, part, trees, folder / name)
-        for file in differing(files_of(folder / "then" / name), files_of(folder / name)):
-            yield f"{name}/{file}"
+    for version in range(golden.version_of("format_version"), golden.newest_version() + 1):
+        golden.unpack(version, folder / "then")
+    (folder / "now").mkdir()
+    packages = golden.pack_towns(binaries, folder / "now")
+    missing = {then.name for then in (folder / "then").iterdir()} ^ {package.name for package in packages}
+    yield from (f"{name}: of one side only" for name in sorted(missing))
+    for package in packages:
+        if package.name not in missing:
+            yield from (f"{package.name}/{file}" for file in differing(files_of(folder / "then" / package.name), files_of(package)))
 
 
 def checksums(binaries: pathlib.Path, folder: pathlib.Path) -> dict[str, str]:
