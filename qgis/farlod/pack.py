@@ -74,8 +74,11 @@ class PackCity(FarlodAlgorithm):
         kind = QgsProcessingParameterFile.Folder
         folder = QgsProcessingParameterFile("INPUT_FOLDER", "Folder with city files", kind, "", None, True)
         self.add(folder, "All city files in it, and in the folders below it.")
-        terrain = QgsProcessingParameterRasterLayer("TERRAIN", "Terrain", None, True)
-        self.add(terrain, "Elevations of the ground, in metres. Without it, the ground passes through the bases of buildings.")
+        terrain = QgsProcessingParameterMultipleLayers("TERRAIN", "Terrain", QgsProcessing.TypeRaster, None, True)
+        ground = "Elevations of the ground in metres, also in tiles. Without it, the ground passes through the bases of buildings."
+        self.add(terrain, ground)
+        far = QgsProcessingParameterMultipleLayers("FAR_TERRAIN", "Far terrain", QgsProcessing.TypeRaster, None, True)
+        self.add(far, "Elevations around the city, of any resolution: mountains beyond what the terrain covers hide the sky.")
         crs = QgsProcessingParameterCrs("CRS", "CRS of inputs that do not say theirs", None, True)
         self.add(crs, "Meshes (OBJ, STL, PLY, GLB), and some others, do not say it.")
         out = QgsProcessingParameterCrs("OUT_CRS", "CRS of the package", None, True)
@@ -204,10 +207,15 @@ class PackCity(FarlodAlgorithm):
             inputs.append(self.parameterAsFile(parameters, "INPUT_FOLDER", context))
         if self.is_given(parameters, "FOOTPRINTS"):
             inputs.append(self._layer_file("FOOTPRINTS", folder, parameters, context))
-        terrain = self.parameterAsRasterLayer(parameters, "TERRAIN", context)
-        if not inputs and terrain is None:
+        terrain = self._rasters("TERRAIN", "--terrain", parameters, context)
+        if not inputs and not terrain:
             raise QgsProcessingException("There is nothing to pack: give city files, a folder of them, footprints or a terrain.")
-        return [*inputs, *([f"--terrain={raster_file(terrain)}"] if terrain is not None else [])]
+        return [*inputs, *terrain, *self._rasters("FAR_TERRAIN", "--far-terrain", parameters, context)]
+
+    def _rasters(self, name: str, option: str, parameters: Values, context: QgsProcessingContext) -> list[str]:
+        """The option, once for each raster."""
+        layers = self.parameterAsLayerList(parameters, name, context) if self.is_given(parameters, name) else []
+        return [f"{option}={raster_file(layer)}" for layer in layers]
 
     def _layer_file(self, name: str, folder: pathlib.Path, parameters: Values, context: QgsProcessingContext) -> str:
         """The file of a layer, or one in the folder that holds what of it is wanted."""

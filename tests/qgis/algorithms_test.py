@@ -226,6 +226,15 @@ class Footprints(QgisTest):
         program("farlod-pack", SAMPLES / "village.geojson", "--height-field", "height", "--terrain", terrain,
                 "-o", WORK / "expected_hilly.farlod", "--quiet")
         must("diff", "--recursive", WORK / "expected_hilly.farlod", WORK / "hilly.farlod")
+        west, east, around = WORK / "west.tif", WORK / "east.tif", WORK / "around.tif"
+        must("gdal_translate", "-srcwin", 0, 0, 21, 40, terrain, west)
+        must("gdal_translate", "-srcwin", 19, 0, 21, 40, terrain, east)
+        must("gdal_translate", "-a_ullr", 545000, 5505000, 555000, 5495000, terrain, around)
+        algorithm("pack", FOOTPRINTS=SAMPLES / "village.geojson", HEIGHT_FIELD="height", TERRAIN=[west, east], FAR_TERRAIN=around,
+                  OUTPUT=WORK / "tiles.farlod")
+        program("farlod-pack", SAMPLES / "village.geojson", "--height-field", "height", "--terrain", west, "--terrain", east,
+                "--far-terrain", around, "-o", WORK / "expected_tiles.farlod", "--quiet")
+        must("diff", "--recursive", WORK / "expected_tiles.farlod", WORK / "tiles.farlod")
 
 
 class Trees(QgisTest):
