@@ -27,6 +27,10 @@ Json json_of(const ChosenGrid& chosen) {
   return j;
 }
 
+Json json_of(const std::optional<Point2d>& lon_lat_deg) {
+  return lon_lat_deg ? Json::array({lon_lat_deg->x, lon_lat_deg->y}) : Json();
+}
+
 Json json_of(const Problem& p) {
   const ProblemDescription& d = describe(p.code);
   return {{"code", static_cast<int>(p.code)},
@@ -36,12 +40,13 @@ Json json_of(const Problem& p) {
           {"place", p.place},
           {"ring", p.ring.empty() ? Json() : Json(p.ring)},
           {"position", p.position ? Json::array({p.position->x, p.position->y, p.position->z}) : Json()},
+          {"lon_lat", json_of(p.lon_lat_deg)},
           {"detail", p.detail}};
 }
 
 Json point_of(const std::optional<Point2d>& lon_lat_deg) {
   if (!lon_lat_deg) return nullptr;
-  return {{"type", "Point"}, {"coordinates", Json::array({lon_lat_deg->x, lon_lat_deg->y})}};
+  return {{"type", "Point"}, {"coordinates", json_of(lon_lat_deg)}};
 }
 
 Json seconds_of(const PackResult& result, double total_seconds) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "app/problem_places.hpp"
 #include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
@@ -41,10 +42,24 @@ std::string place_of([[maybe_unused]] const PackageDescription& d) {
 #endif
 }
 
+/// Degrees in the CRS of the package.
+std::vector<Point2d> projected([[maybe_unused]] const std::vector<Point2d>& lon_lat,
+                               [[maybe_unused]] const PackageDescription& d) {
+#ifdef FARLOD_WITH_GDAL
+  return gdal_files().reprojected(lon_lat, "EPSG:4326", d.crs_wkt);
+#else
+  throw InputError("this farlod-info is built without GDAL, and cannot bring degrees into the CRS of the package.");
+#endif
+}
+
 MarkedPlaces places_in(const std::filesystem::path& report, const PackageDescription& d) {
   MarkedPlaces marked;
   if (report.empty()) return marked;
   marked.file = report.filename().string();
+  if (const auto lon_lat = problem_places_in(report)) {
+    marked.places_projected = projected(*lon_lat, d);
+    return marked;
+  }
   for (const RequestedPoint& p : read_points_in(d.crs_wkt, report).points) marked.places_projected.push_back({p.x, p.y});
   return marked;
 }

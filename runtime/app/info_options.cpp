@@ -56,7 +56,7 @@ void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
       ->group("Output");
   app.add_option(
          "--report", raw.report,
-         "Mark the places of this report of farlod-pack (--report FILE.geojson), or of any file of points, in the picture "
+         "Mark the places of this report of farlod-pack (FILE.geojson or FILE.json), or of any file of points, in the picture "
          "of the city")
       ->type_name(file_value)
       ->group("Output");

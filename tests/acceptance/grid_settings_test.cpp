@@ -135,7 +135,7 @@ TEST_F(Report, HasAnEntryForEachProblem) {
   ASSERT_EQ(report.size(), 3U);
   std::map<std::string, int> code_of;
   for (const nlohmann::json& entry : report) {
-    for (const char* key : {"code", "problem", "effect", "source", "place", "ring", "position", "detail"})
+    for (const char* key : {"code", "problem", "effect", "source", "place", "ring", "position", "lon_lat", "detail"})
       EXPECT_TRUE(entry.contains(key)) << key;
     EXPECT_EQ(entry.at("source"), "town.geojson");
     EXPECT_EQ(entry.at("effect"), "left out");
@@ -184,6 +184,7 @@ TEST_F(Report, IsAMapWhereItsNameSaysSo) {
     EXPECT_EQ(feature.at("geometry").at("type"), "Point");
     if (report[n].at("place") != "tree") continue;
     const nlohmann::json& lon_lat = feature.at("geometry").at("coordinates");
+    EXPECT_EQ(report[n].at("lon_lat"), lon_lat);
     ASSERT_EQ(lon_lat.size(), 2U);
     EXPECT_NEAR(lon_lat[0], 9.0, millimetre_deg);
     EXPECT_NEAR(lon_lat[1], town_latitude_deg, millimetre_deg);
@@ -198,7 +199,7 @@ TEST_F(Report, HasNoGeometryWhereNoPlaceIsKnown) {
   const nlohmann::json features = folder.json_of("r.geojson").at("features");
   ASSERT_EQ(features.size(), 1U);
   EXPECT_EQ(features[0].at("geometry"), nullptr);
-  EXPECT_EQ(features[0].at("properties").at("position"), nullptr);
+  for (const char* key : {"position", "lon_lat"}) EXPECT_EQ(features[0].at("properties").at(key), nullptr) << key;
 }
 
 TEST_F(Report, IsCountedOnTheScreen) {

@@ -203,6 +203,7 @@ TEST_F(Info, MarksTheReportInThePictureOfTheCity) {
     [[500000, 5500000], [500010, 5500000], [500010, 5500010], [500000, 5500010], [500000, 5500000]],
     [[500050, 5500030], [500060, 5500030], [500060, 5500040], [500050, 5500030]]]}}]})");
   folder.must("farlod-pack town.geojson odd.geojson -o b.farlod --quiet --report problems.geojson");
+  folder.must("farlod-pack town.geojson odd.geojson -o c.farlod --quiet --report problems.json");
   ASSERT_THAT(folder.text_of("problems.geojson"), HasSubstr("hole_outside"));
   // The same two places, of the hole in the roof and of that in the floor, in the CRS of the package
   folder.write("place.csv", "x,y\n500050,5500030\n500060,5500040\n");
@@ -212,12 +213,14 @@ TEST_F(Info, MarksTheReportInThePictureOfTheCity) {
     return raster(name + ".png");
   };
   const RasterFile plain = picture("plain", ""), report = picture("report", "--report problems.geojson"),
-                   place = picture("place", "--report place.csv");
+                   list = picture("list", "--report problems.json"), place = picture("place", "--report place.csv");
   EXPECT_GT(differences(plain, place), 40U) << "a disc of four pixels";
   EXPECT_LT(differences(report, place), 10U) << "the two are less than a tenth of a pixel apart";
+  EXPECT_EQ(differences(report, list), 0U) << "the same report in JSON";
 }
 
 TEST_F(Info, RefusesInOneLine) {
+  folder.write("old.json", R"([{"code": 107, "position": [1, 2, 3]}])");
   for (const auto& [name, arguments, exit_code, said] :
        {unusable("", "lost.farlod", {"lost.farlod is not a package"}), wrong_usage("", "", {"PACKAGE is required"}),
         wrong_usage("", "a.farlod --cell 3", {"--cell", "\"3\" is not of the form I,J"}),
@@ -228,6 +231,7 @@ TEST_F(Info, RefusesInOneLine) {
         wrong_usage("", "a.farlod --report r.geojson", {"--report", "it goes with --png, and without --cell"}),
         wrong_usage("", "a.farlod --cell 0,0 --png o.png --report r.geojson", {"--report", "without --cell"}),
         unusable("", "a.farlod --png o.png --report lost.geojson", {"lost.geojson"}),
+        unusable("", "a.farlod --png o.png --report old.json", {"old.json is JSON, but no report that says where problems are"}),
         unusable("", "a.farlod --cell 0,0 --obj lost/o.obj", {"lost/o.obj", "no folder lost"}),
         unusable("", "a.farlod --summary lost/s.json", {"no folder lost"}),
         wrong_usage("", "a.farlod --threads 0", {"--threads", "1 to 4096"})}) {
