@@ -262,6 +262,13 @@ class Neighbors {
 
 namespace {
 
+/// Promise (4) of bases_of.
+void put_on_a_steep_ground(std::vector<Base>& bases) {
+  constexpr std::ptrdiff_t enough_for_a_town = 20;
+  const auto on_ground = std::count(bases.begin(), bases.end(), Base::on_ground), all = std::ssize(bases);
+  if (all >= enough_for_a_town && 2 * on_ground < all) std::fill(bases.begin(), bases.end(), Base::on_ground);
+}
+
 void raise_as_files_say(const CityModel& city, std::vector<Base>& bases) {
   for (std::size_t n = 0; n < bases.size(); ++n)
     if (city.buildings()[n].foot == Foot::above_ground) bases[n] = Base::above_ground;
@@ -286,6 +293,7 @@ std::vector<Base> bases_of(const CityModel& city) {
     if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbors.is_above_ground(n, without_bridges))
       result[n] = Base::above_ground;
   });
+  put_on_a_steep_ground(result);
   raise_as_files_say(city, result);
   return result;
 }

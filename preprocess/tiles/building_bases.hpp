@@ -35,6 +35,8 @@ enum class Base : std::uint8_t {
 ///   (2) A base is below the ground when at least two neighbors are higher than any slope allows, and more of them than neighbors
 ///       whose bases agree with it up to a gentle slope.
 ///   (3) Buildings that the file says to begin above the ground do, and are nobody's neighbors.
+///   (4) Where most of a town (of 20 buildings at least) would be above or below the ground, all but (3) are on it: it is
+///   steeper.
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
 
 /// The bases where the ground is surveyed: all are on it, but for (3).

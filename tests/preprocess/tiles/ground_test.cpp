@@ -365,5 +365,22 @@ TEST(BasePoints, OneHouseBelowAnotherIsNoError) {
   EXPECT_EQ(bases_of(town.city())[0], Base::on_ground) << "nobody can tell which of two is wrong";
 }
 
+/// Rows of houses on a slope of 39°, each too far above the next one for any street.
+TEST(BasePoints, MostOfATownAreNeitherBridgesNorErrors) {
+  for (const int rows : {4, 3}) {
+    scenes::SceneBuilder town;
+    for (int n = 0; n < 5 * rows; ++n) {
+      const Point2d corner{22.0 * (n % 5), 20.0 * (n / 5)};
+      town.add_box({corner, corner + Point2d{10.0, 9.0}}, 0.8 * corner.y, 0.8 * corner.y + 9.0);
+    }
+    const std::vector<Base> bases = bases_of(town.city());
+    const auto on_ground = std::count(bases.begin(), bases.end(), Base::on_ground);
+    if (rows == 4)
+      EXPECT_EQ(on_ground, 20);
+    else
+      EXPECT_LT(on_ground, 8) << "fewer than 20 may be bridges above a street";
+  }
+}
+
 }  // namespace
 }  // namespace farlod::tiles
