@@ -5,6 +5,7 @@
 #include <cpl_error.h>
 #include <gdal_utils.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -47,14 +48,23 @@ GeoTransform geo_transform_of(GDALDataset& dataset, const std::filesystem::path&
 }
 
 std::optional<double> named_unit_m(GDALRasterBand& band) {
-  const std::string unit = band.GetUnitType();
   constexpr double us_survey_foot_m = 1200.0 / 3937.0, foot_m = 0.3048;
-  for (const char* name : {"ftUS", "us-ft", "US survey foot", "US survey feet", "Foot_US", "us_survey_feet"})
-    if (EQUAL(unit.c_str(), name)) return us_survey_foot_m;
-  for (const char* name : {"ft", "foot", "feet", "international foot"})
-    if (EQUAL(unit.c_str(), name)) return foot_m;
-  for (const char* name : {"m", "metre", "metres", "meter", "meters"})
-    if (EQUAL(unit.c_str(), name)) return 1.0;
+  struct Unit {
+    double metres;
+    std::array<const char*, 6> names;
+  };
+  constexpr std::array units{
+      Unit{us_survey_foot_m, {"ftUS", "us-ft", "US survey foot", "US survey feet", "Foot_US", "us_survey_feet"}},
+      Unit{foot_m, {"ft", "foot", "feet", "international foot"}},
+      Unit{1.0, {"m", "metre", "metres", "meter", "meters"}},
+      Unit{0.1, {"dm", "decimetre", "decimetres", "decimeter", "decimeters"}},
+      Unit{0.01, {"cm", "centimetre", "centimetres", "centimeter", "centimeters"}},
+      Unit{0.001, {"mm", "millimetre", "millimetres", "millimeter", "millimeters"}},
+      Unit{1000.0, {"km", "kilometre", "kilometres", "kilometer", "kilometers"}}};
+  const std::string text = band.GetUnitType();
+  for (const Unit& unit : units)
+    for (const char* name : unit.names)
+      if (name != nullptr && EQUAL(text.c_str(), name)) return unit.metres;
   return std::nullopt;
 }
 

@@ -111,15 +111,22 @@ TEST_F(TerrainReader, ReadsOnePixelAroundTheWantedCity) {
 }
 
 TEST_F(TerrainReader, HonoursScaleOffsetAndUnit) {
-  const auto path = file("feet.tif");
-  auto dataset = make_raster(path, {"EPSG:25832", {1000.0, 10.0, 0.0, 3000.0, 0.0, -10.0}, 2, 2, GDT_Int16});
-  fill(*dataset, [](int column, int row) { return 10.0 * row + column; });
-  dataset->GetRasterBand(1)->SetScale(0.5);
-  dataset->GetRasterBand(1)->SetOffset(100.0);
-  dataset->GetRasterBand(1)->SetUnitType("ft");
-  dataset.reset();
-  const TerrainRaster terrain = read_terrain(path, "", frame_in("EPSG:25832"), std::nullopt, report);
-  EXPECT_EQ(terrain.height_m[0], static_cast<float>(0.3048 * (0.5 * 10.0 + 100.0)));
+  for (const auto& [unit, metres] :
+       {std::pair("ft", 0.3048), std::pair("feet", 0.3048), std::pair("US survey foot", 1200.0 / 3937.0), std::pair("metre", 1.0),
+        std::pair("dm", 0.1), std::pair("cm", 0.01), std::pair("Centimeters", 0.01), std::pair("mm", 0.001),
+        std::pair("km", 1000.0)}) {
+    const auto path = file(std::string(unit) + ".tif");
+    auto dataset = make_raster(path, {"EPSG:25832", {1000.0, 10.0, 0.0, 3000.0, 0.0, -10.0}, 2, 2, GDT_Int16});
+    fill(*dataset, [](int column, int row) { return 10.0 * row + column; });
+    // Of kilometres so few that they are still a place on the Earth
+    const double scale = metres > 1.0 ? 0.005 : 0.5;
+    dataset->GetRasterBand(1)->SetScale(scale);
+    dataset->GetRasterBand(1)->SetOffset(200.0 * scale);
+    dataset->GetRasterBand(1)->SetUnitType(unit);
+    dataset.reset();
+    const TerrainRaster terrain = read_terrain(path, "", frame_in("EPSG:25832"), std::nullopt, report);
+    EXPECT_FLOAT_EQ(terrain.height_m[0].value_or(0.0F), static_cast<float>(metres * scale * 210.0)) << unit;
+  }
 }
 
 TEST_F(TerrainReader, CountsHeightsInTheFeetOfTheCrs) {
