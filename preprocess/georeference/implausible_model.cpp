@@ -294,7 +294,7 @@ std::string explanation_of_size(double side_m, double height_m) {
       return "counted " + in_unit + ", a typical one would be " + metres_of(unit.metres * side_m) + " wide and " +
              metres_of(unit.metres * height_m) + " high: are these its units?";
     if (is_usual_side(side_m))
-      return "are heights " + in_unit + "? A typical one would be " + metres_of(unit.metres * height_m) + " high";
+      return "are heights " + in_unit + "? A typical one would be " + metres_of(unit.metres * height_m) + " high.";
   }
   return "what is the unit of the coordinates, and is each vertex right?";
 }

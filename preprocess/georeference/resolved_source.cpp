@@ -253,7 +253,7 @@ std::optional<std::string> unit_that_fits(const Crs& crs, Point2d p_map, std::op
 std::string explanation(const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
   if (crs.is_projected())
     if (auto unit = unit_that_fits(crs, p_map, building_extent)) return *unit;
-  if (is_of_a_site(crs, p_map)) return "it looks like a model of a site: --origin X,Y puts a mesh on the map";
+  if (is_of_a_site(crs, p_map)) return "it looks like a model of a site: give it its place (--origin X,Y of a mesh)";
   return "is it the right CRS? --crs EPSG:n names another";
 }
 

@@ -167,8 +167,9 @@ TEST(ImplausibleModel, CountsInAnotherUnit) {
   EXPECT_THAT(Model().town(20, 1200, 800).detail(), AllOf(HasSubstr("in centimetres"), HasSubstr("12 m wide and 8 m high")));
   EXPECT_THAT(Model("a.obj").town(20, 0.012, 0.008).detail(),
               AllOf(HasSubstr("in kilometres"), HasSubstr("OBJ is read in metres")));
-  EXPECT_THAT(Model("a.gml").town(20, 12, 800).detail(),
-              AllOf(HasSubstr("are heights in centimetres?"), HasSubstr("name the CRS")));
+  EXPECT_THAT(
+      Model("a.gml").town(20, 12, 800).detail(),
+      AllOf(HasSubstr("are heights in centimetres? A typical one would be 8 m high. Convert"), HasSubstr("name the CRS")));
   for (const Model& model : {Model().town(1, 8000, 7000), Model().town(20, 1200, 800), Model().town(3, 0.012, 0.008)})
     EXPECT_THAT(model.codes(), ElementsAre(208));
 }
