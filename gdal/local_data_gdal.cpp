@@ -107,7 +107,10 @@ GDALDatasetUniquePtr open_within(GdalReach reach, const std::filesystem::path& f
   if (reach == GdalReach::own_data && format == "MapInfo File") require_own_table(file);
   // For GML: GDAL must write nothing beside the file, and fetch no schema from an address in it
   constexpr std::array<const char*, 3> gml_options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
-  const char* const* options = (kinds & GDAL_OF_VECTOR) != 0 ? gml_options.data() : nullptr;
+  // For tables: columns of WKT that GDAL does not look for by itself, such as that of Open Buildings
+  constexpr std::array<const char*, 2> csv_options{"GEOM_POSSIBLE_NAMES=WKT,_WKT*,geometry,geom,the_geom,wkb_geometry", nullptr};
+  const char* const* vector_options = format == "CSV" ? csv_options.data() : gml_options.data();
+  const char* const* options = (kinds & GDAL_OF_VECTOR) != 0 ? vector_options : nullptr;
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), kinds | GDAL_OF_READONLY, allowed.List(), options));
   if (dataset && (kinds & GDAL_OF_RASTER) != 0) require_own_overviews(*dataset, file);
   return dataset;

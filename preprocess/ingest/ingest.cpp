@@ -49,6 +49,7 @@ void require_content(const InputFile& file) {
 }
 
 bool has_reader(FileFormat format) {
+  if (format == FileFormat::palm_driver) return true;  // it has no ending of its own
   const std::span<const InputFormat> formats = input_formats();
   return std::any_of(formats.begin(), formats.end(),
                      [&](const InputFormat& known) { return known.format == format && known.is_this != nullptr; });
@@ -57,8 +58,7 @@ bool has_reader(FileFormat format) {
 FileFormat format_of(const InputFile& file, Report& report) {
   const FileFormat format = format_by_content(file);
   if (const ForeignFormat* foreign = has_reader(format) ? nullptr : foreign_format_of(file))
-    throw InputError(file.name + " is " + std::string(foreign->name) + ", which is not read: " + std::string(foreign->advice) +
-                     ".");
+    throw InputError(refusal_of(file, *foreign));
   if (format == FileFormat::unknown) return format_by_name(file);
   const std::string name = file.unpacked_name();
   if (!name_allows(name, format))

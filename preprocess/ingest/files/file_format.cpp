@@ -42,17 +42,6 @@ constexpr std::array obj_keywords{"v"sv,      "vt"sv,  "vn"sv,    "vp"sv,       
                                   "cstype"sv, "deg"sv, "curv"sv,  "curv2"sv,    "surf"sv,    "parm"sv,   "trim"sv,   "hole"sv,
                                   "end"sv,    "lod"sv, "bevel"sv, "c_interp"sv, "d_interp"sv};
 
-/// The beginning of a text as ASCII, for the search of keywords: without byte order mark and leading blanks. Of UTF-16, only the
-/// byte of each character that is not zero in ASCII is kept.
-std::string plain_beginning(std::string_view bytes) {
-  if (bytes.starts_with("\xFE\xFF"sv)) return plain_beginning(every_other(bytes, 3));
-  if (bytes.starts_with("\xFF\xFE"sv)) return plain_beginning(every_other(bytes, 2));
-  if (bytes.starts_with("<\0"sv)) return every_other(bytes, 0);
-  if (bytes.starts_with("\0<"sv)) return every_other(bytes, 1);
-  if (bytes.starts_with(utf8_mark)) bytes.remove_prefix(utf8_mark.size());
-  return std::string(without_blanks(bytes));
-}
-
 /// The start tag of the root of an XML text that begins here: "core:CityModel xmlns=…". Empty when there is none.
 std::string_view root_tag(std::string_view xml) {
   while (true) {
@@ -68,10 +57,14 @@ std::string_view root_tag(std::string_view xml) {
   }
 }
 
+std::string_view local_name(std::string_view root_tag) {
+  const std::string_view name = root_tag.substr(0, root_tag.find_first_of(" \t\r\n/>"));
+  return name.substr(name.find(':') + 1);
+}
+
 /// Whether the root element is that of CityGML, or a feature collection (WFS) that declares the namespace of CityGML.
 bool is_citygml_root(std::string_view root_tag) {
-  std::string_view name = root_tag.substr(0, root_tag.find_first_of(" \t\r\n/>"));
-  name = name.substr(name.find(':') + 1);
+  const std::string_view name = local_name(root_tag);
   return name == "CityModel" || (name == "FeatureCollection" && root_tag.find("opengis.net/citygml") != root_tag.npos);
 }
 
@@ -201,6 +194,17 @@ NamedFormat named_format(std::string_view file_name) {
 }  // namespace
 
 std::span<const InputFormat> input_formats() { return formats; }
+
+std::string plain_beginning(std::string_view bytes) {
+  if (bytes.starts_with("\xFE\xFF"sv)) return plain_beginning(every_other(bytes, 3));
+  if (bytes.starts_with("\xFF\xFE"sv)) return plain_beginning(every_other(bytes, 2));
+  if (bytes.starts_with("<\0"sv)) return every_other(bytes, 0);
+  if (bytes.starts_with("\0<"sv)) return every_other(bytes, 1);
+  if (bytes.starts_with(utf8_mark)) bytes.remove_prefix(utf8_mark.size());
+  return std::string(without_blanks(bytes));
+}
+
+std::string_view xml_root(std::string_view text) { return local_name(root_tag(text)); }
 
 bool is_text_stl(std::string_view beginning) {
   return without_blanks(beginning).starts_with("solid") && beginning.find('\0') == beginning.npos &&

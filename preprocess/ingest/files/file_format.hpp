@@ -30,6 +30,13 @@ namespace farlod::ingest {
 /// Whether a file is `metadata.json` of CityJSON without objects: the header of CityJSONFeatures in other files.
 [[nodiscard]] bool is_header_of_features(const InputFile& file);
 
+/// The beginning of a text as ASCII, for the search of keywords: without byte order mark and leading blanks. Of UTF-16, only the
+/// byte of each character that is not zero in ASCII is kept.
+[[nodiscard]] std::string plain_beginning(std::string_view bytes);
+
+/// The name of the root element of an XML text that begins so, without its prefix; empty when there is none.
+[[nodiscard]] std::string_view xml_root(std::string_view text);
+
 /// Whether a file that begins so is STL as text. Binary files may begin with the same word, but have other bytes before long.
 [[nodiscard]] bool is_text_stl(std::string_view beginning);
 
@@ -38,11 +45,12 @@ enum class MapKind {
   unknown,
   features,
   raster,
-  only_by_name  ///< its format may name other files, and the user did not name this one
+  placeless_raster,  ///< a raster without a place on the map, such as a photograph
+  only_by_name       ///< its format may name other files, and the user did not name this one
 };
 
 /// By its content, and for some formats by its name. A file with features and a raster (GeoPackage, netCDF) counts as features,
-/// unless `layer` is the name of a raster in it. A raster without a place on the map, such as a photograph, is `unknown`.
+/// unless `layer` is the name of a raster in it.
 [[nodiscard]] MapKind map_kind_of(const InputFile& file, const std::optional<std::string>& layer = {});
 
 /// Whether a file is a static driver of PALM: netCDF with `origin_x`, and `zt`, `buildings_2d` or `buildings_3d`.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "ingest/files/input_file.hpp"
@@ -16,5 +17,8 @@ struct ForeignFormat {
 
 /// The format of a file by its content, or by its name where the content has no mark; null where it is none of them.
 [[nodiscard]] const ForeignFormat* foreign_format_of(const InputFile& file);
+
+/// What ends the run: that `file` is of this format, and what converts it.
+[[nodiscard]] std::string refusal_of(const InputFile& file, const ForeignFormat& format);
 
 }  // namespace farlod::ingest

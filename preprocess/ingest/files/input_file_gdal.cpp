@@ -53,7 +53,8 @@ MapKind map_kind_of(const InputFile& file, const std::optional<std::string>& lay
   const GdalErrors quiet;
   const GdalReach reach = reach_of(file);
   if (is_known_within(reach, file.path, GDAL_OF_VECTOR) && holds_features(file, layer)) return MapKind::features;
-  if (is_known_within(reach, file.path, GDAL_OF_RASTER)) return lies_on_the_map(file) ? MapKind::raster : MapKind::unknown;
+  if (is_known_within(reach, file.path, GDAL_OF_RASTER))
+    return lies_on_the_map(file) ? MapKind::raster : MapKind::placeless_raster;
   const bool is_for_a_name =
       !file.is_named && is_known_within(GdalReach::local_files, file.path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
   return is_for_a_name ? MapKind::only_by_name : MapKind::unknown;

@@ -11,6 +11,7 @@
 
 #include "farlod/error.hpp"
 #include "ingest/files/file_format.hpp"
+#include "ingest/files/foreign_format.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -281,6 +282,8 @@ class InputSearch {
       add(file);
     else if (!is_xml && !is_json)
       skip(file);
+    else
+      unread_.push_back(file);
   }
 
   void add(const InputFile& file) {
@@ -296,7 +299,7 @@ class InputSearch {
 
   void skip(const InputFile& file) {
     const std::string ending = lower_case(fs::path(file.unpacked_name()).extension().string());
-    ++found_.skipped[ending.empty() ? "files without an ending" : ending + " files"];
+    if (++found_.skipped[ending.empty() ? "files without an ending" : ending + " files"] == 1) unread_.push_back(file);
   }
 
   /// A raster that is alone is a surface model. Several rasters, or one beside cities, may be pictures and are skipped.
@@ -314,9 +317,20 @@ class InputSearch {
         skip(file);
   }
 
+  /// Throws InputError when the only input, or a file in it, is of a format that is known, but not read.
+  void refuse_foreign(const fs::path& input) const {
+    std::vector<InputFile> files{InputFile(input)};
+    files.insert(files.end(), unread_.begin(), unread_.end());
+    for (const InputFile& file : files)
+      if (const ForeignFormat* foreign = foreign_format_of(file))
+        throw InputError((file.name == input.string() ? "" : input.string() + " holds no file of a city: ") +
+                         refusal_of(file, *foreign));
+  }
+
   void require_something(std::span<const fs::path> inputs) const {
     if (inputs.empty() || !found_.files.empty() || !found_.surface_models.empty()) return;
     if (!unusable_.empty()) throw InputError(unusable_.front().second);
+    if (inputs.size() == 1) refuse_foreign(inputs.front());
     std::string others;
     for (const auto& [what, count] : found_.skipped)
       others += (others.empty() ? " It holds " : ", ") + std::to_string(count) + " " + what;
@@ -330,6 +344,7 @@ class InputSearch {
   FoundInputs found_;
   bool is_listed_ = false;                                     ///< whether the directory of the current archive could be read
   std::vector<InputFile> rasters_, only_by_name_;              ///< of the current input
+  std::vector<InputFile> unread_;                              ///< the first of each ending that is no city
   std::unordered_set<std::string> known_, locked_;             ///< files taken so far; locked names of the current archive
   std::vector<std::pair<std::string, std::string>> unusable_;  ///< names and reasons
 };

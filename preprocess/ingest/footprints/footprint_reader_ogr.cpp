@@ -119,14 +119,16 @@ class FootprintLayer {
         heights_(table_.names(), with_fields_checked(settings)) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
+    require_features();
     if (heights_.has_bases()) learn_bases();
     holds_bodies_ = find_bodies();
-    if (!holds_bodies_ && !heights_.can_tell())
-      throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
-                       ". Name the field with --height-field or --storeys-field, or with --roof-field where it holds "
-                       "elevations (and with --base-field those of the ground, or give a terrain), or give all one "
-                       "--default-height" +
-                       (others.empty() ? "." : "; or read another layer, by --layer: " + others + "."));
+    if (holds_bodies_ || heights_.can_tell()) return;
+    require_areas();
+    throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
+                     ". Name the field with --height-field or --storeys-field, or with --roof-field where it holds "
+                     "elevations (and with --base-field those of the ground, or give a terrain), or give all one "
+                     "--default-height" +
+                     (others.empty() ? "." : "; or read another layer, by --layer: " + others + "."));
   }
 
   void read(GdalErrors& messages) {
@@ -177,6 +179,24 @@ class FootprintLayer {
     throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_, table_) +
                      "). Give one of them as " + option +
                      (may_be_misread ? ", or the encoding of their names by --encoding where they look wrong." : "."));
+  }
+
+  /// A service answers so where nothing lies in the area, or at the end of its pages.
+  void require_features() {
+    layer_.ResetReading();
+    if (!next_feature(layer_))
+      throw InputError(builder_.source() + " holds no feature: its layer " + layer_.GetName() +
+                       " is empty. Was the area of the download, or a filter, the wrong one?");
+  }
+
+  /// KML may hold places and links to models alone.
+  void require_areas() {
+    layer_.ResetReading();
+    Feature feature = next_feature(layer_);
+    for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
+      if (feature->GetGeometryRef() != nullptr && !areas_of(*feature->GetGeometryRef()).polygons.empty()) return;
+    throw InputError(builder_.source() + " holds no areas, which footprints are: its layer " + layer_.GetName() +
+                     " has other features. Bodies that it links to, as KML does, are to be exported as OBJ.");
   }
 
   /// Names and ids go into messages and packages, which are UTF-8.

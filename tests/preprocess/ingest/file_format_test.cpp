@@ -266,29 +266,6 @@ TEST(SeveralFiles, ThreadsDoNotChangeTheirOrder) {
   for (const int threads : {2, 8}) EXPECT_EQ(read_on_threads(threads, files), on_one);
 }
 
-TEST(ForeignFormats, AreRefusedWithWhatConvertsThem) {
-  struct Foreign {
-    const char *file, *beginning, *said;
-  };
-  for (const Foreign& foreign :
-       {Foreign{"a.dxf", "0\nSECTION\n2\nENTITIES\n", "a CAD drawing (DXF, DWG), which is not read: export the bodies as OBJ"},
-        Foreign{"a.dwg", "AC1032\1\2", "a CAD drawing"}, Foreign{"a.ifc", "ISO-10303-21;\nHEADER;", "IfcConvert FILE.ifc"},
-        Foreign{"tileset.json", R"({"asset":{"version":"1.0"},"geometricError":500,"root":{}})", "3D Tiles"},
-        Foreign{"a.gltf", R"({"asset":{},"meshes":[],"accessors":[]})", "a mesh of another format than those that are read"},
-        Foreign{"a.fbx", "Kaydara FBX Binary", "assimp export"},
-        Foreign{"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nend_header\n", "a point cloud"},
-        Foreign{"a.las", "LASF\1", "PDAL"},
-        Foreign{"a.json", R"({"version":0.6,"osm3s":{"timestamp_osm_base":"2026"},"elements":[]})", "osmtogeojson"},
-        Foreign{"b.json", R"({"version":0.6,"generator":"Overpass API","elements":[]})", "[out:xml]"},
-        Foreign{"a.xml", R"(<?xml version="1.0"?><gbXML xmlns="http://www.gbxml.org/schema">)", "gbXML"},
-        Foreign{"a.gml", R"(<gml:FeatureCollection xmlns:bu="http://inspire.ec.europa.eu/schemas/bu-core2d/4.0">)", "INSPIRE"},
-        Foreign{"a.parquet", "PAR1\1", "GeoPackage"}, Foreign{"plan.pdf", "%PDF-1.7", "a document"}}) {
-    const auto file = write_file(foreign.file, foreign.beginning);
-    const std::string refusal = scenes::refusal_of<InputError>([&] { (void)read_file(file); });
-    EXPECT_THAT(refusal, testing::AllOf(HasSubstr(foreign.file), HasSubstr(foreign.said), HasSubstr("which is not read")));
-  }
-}
-
 TEST(SeveralFiles, AreNotReadOnceAStopIsRequested) {
   const std::vector<InputFile> files(10, write_file("a.obj", obj_of("a")));
   std::stop_source source;

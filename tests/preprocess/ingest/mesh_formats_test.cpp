@@ -114,8 +114,9 @@ TEST(Ply, ListsMayStandAnywhereAndOtherElementsAreLeftOut) {
       "ply\r\nformat ascii 1.0\r\nelement vertex 4\r\nproperty list char float weights\r\nproperty float x\r\nproperty float "
       "y\r\n"
       "property float z\r\nelement cloud 1\r\nproperty int a\r\nelement face 3\r\nproperty uchar colour\r\n"
-      "property list int uint vertex_index\r\nelement empty 9\r\nend_header\r\n";
-  const Reading r = read_text("a.ply", head + "2 .5 .5 0 0 0\n0 9 0 0\n0 9 9 0\n0 0 9 x\n7\n1 3 0 1 2\n1 3 0 1 4\n1 3 0 2 3\n");
+      "property list int uint vertex_index\r\nproperty list uchar float texcoord\r\nelement empty 9\r\nend_header\r\n";
+  const Reading r =
+      read_text("a.ply", head + "2 .5 .5 0 0 0\n0 9 0 0\n0 9 9 0\n0 0 9 x\n7\n1 3 0 1 2 1 .5\n1 3 0 1 4 0\n1 3 0 2 3 0\n");
   EXPECT_EQ(r.city().facets().size(), 1U);
   EXPECT_EQ(r.codes(), (std::set<int>{102, 110}));
   EXPECT_THAT(r.report.problems()[0].detail, HasSubstr("face of face 2 names a vertex"));

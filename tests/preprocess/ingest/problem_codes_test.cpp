@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"EmptyFile", "town.obj", "", {"town.obj", "empty"}},
         {"WrongEnd", "town.gml", "<a>\n  <b></a>", {"town.gml", "line 2", "column 8", "mismatched tag"}},
         {"CutXml", "town.gml", "<a>\n  <b>", {"line 2", "no element"}},
-        {"OtherXml", "town.xml", "<html/>", {"not CityGML", "<html>"}},
+        {"OtherXml", "town.xml", "<catalogue/>", {"not CityGML", "<catalogue>"}},
         {"CityGmlWithoutBuildings",
          "town.gml",
          R"(<CityModel xmlns="http://www.opengis.net/citygml/2.0"/>)",
