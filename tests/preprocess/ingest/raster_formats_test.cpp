@@ -77,6 +77,7 @@ struct Variable {
   const char* name;
   std::vector<std::string> dimensions;
   std::vector<double> values;
+  double scale = 1.0;  ///< what a number of the file stands for
 };
 
 /// A static driver of PALM: 6 × 4 cells of 2 m.
@@ -123,6 +124,7 @@ class PalmDrivers : public RasterFormats {
       for (const std::string& name : variable.dimensions) own.push_back(dimensions.at(name));
       const auto array = root->CreateMDArray(variable.name, own, number);
       array->SetNoDataValue(no_data);
+      if (variable.scale != 1.0) array->SetScale(variable.scale);
       std::vector<GUInt64> first(own.size(), 0);
       std::vector<std::size_t> counts;
       for (const auto& dimension : own) counts.push_back(dimension->GetSize());
@@ -186,6 +188,23 @@ TEST_F(PalmDrivers, CellsInSpaceLeaveFreeWhatIsBelowThem) {
   EXPECT_EQ(extent_of(read.city(), read.city().buildings()[0]), (std::pair{0.0, 4.0}));
   EXPECT_EQ(extent_of(read.city(), read.city().buildings()[1]), (std::pair{4.0, 6.0}));
   EXPECT_EQ(read.city().buildings()[1].foot, Foot::above_ground);
+}
+
+/// PALM's lowest layer of cells has no height: what begins in the second one stands on the ground.
+TEST_F(PalmDrivers, CellsOfTheSecondLayerStandOnTheGround) {
+  Variable cells_3d{"buildings_3d", {"z", "y", "x"}, std::vector<double>(4 * columns * rows, 0.0)};
+  cells_3d.values[columns * rows] = 1.0;
+  const Reading read = read_file(write({terrain(), cells_3d}));
+  ASSERT_THAT(read.city().buildings(), SizeIs(1));
+  EXPECT_EQ(extent_of(read.city(), read.city().buildings()[0]), (std::pair{0.0, 2.0}));
+}
+
+TEST_F(PalmDrivers, NumbersOfTheFileMayBeScaled) {
+  const Variable heights{
+      "buildings_2d", {"y", "x"}, cells([](std::size_t column, std::size_t) { return column == 0 ? 120.0 : no_data; }), 0.125};
+  const Reading read = read_file(write({terrain(), heights}));
+  ASSERT_THAT(read.city().buildings(), SizeIs(1));
+  EXPECT_EQ(extent_of(read.city(), read.city().buildings()[0]), (std::pair{0.0, 15.0}));
 }
 
 TEST_F(PalmDrivers, OfAnotherNumberOfCellsAreRefused) {
