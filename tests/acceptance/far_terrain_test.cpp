@@ -46,6 +46,13 @@ TEST_F(FarTerrain, AllEnginesSeeARidgeAllAround) {
   }
 }
 
+TEST_F(FarTerrain, IsRaisedAsTheTerrainIs) {
+  folder.write("low.asc", ascii_grid([](Point2d p) { return norm(p) < 1500.0 ? 60.0 : 660.0; }, 20.0, 2400.0));
+  pack("--terrain low.asc --terrain-offset 40");
+  const CsvTable answer = at_middle("--quantity horizon");
+  EXPECT_NEAR(answer.number(0, "horizon_090"), Angle::radians(std::atan(600.0 / 1510.0)).degrees(), 0.4);
+}
+
 TEST_F(FarTerrain, BoundsHoldForIt) {
   folder.write("terrain.asc", ascii_grid(
                                   [](Point2d p) {
