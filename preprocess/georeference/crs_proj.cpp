@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <regex>
 #include <utility>
 
 #include "base/expects.hpp"
@@ -207,13 +208,24 @@ std::optional<Point2d> Crs::wgs84_lon_lat_deg(Point2d p) const {
   return std::isfinite(there.xy.x) && std::isfinite(there.xy.y) ? std::optional(Point2d{there.xy.x, there.xy.y}) : std::nullopt;
 }
 
+namespace {
+
+/// Programs write such names where they know the unit of heights alone.
+bool is_of_no_system(const std::string& name) {
+  static const std::regex form("(unknown|unnamed|undefined)( .*)?", std::regex::ECMAScript | std::regex::icase);
+  return name.empty() || std::regex_match(name, form);
+}
+
+}  // namespace
+
 std::optional<std::string> Crs::heights_name() const {
   if (!impl_->whole) return std::nullopt;
   const Object plain = without_shift(impl_->context, clone(impl_->context, impl_->whole.get()));
   const bool is_compound = proj_get_type(plain.get()) == PJ_TYPE_COMPOUND_CRS;
   if (!is_compound) return "ellipsoidal heights of " + geographic().name();
   const Object vertical = without_shift(impl_->context, Object(proj_crs_get_sub_crs(impl_->context.get(), plain.get(), 1)));
-  return vertical ? std::optional<std::string>(proj_get_name(vertical.get())) : std::nullopt;
+  if (!vertical || is_of_no_system(proj_get_name(vertical.get()))) return std::nullopt;
+  return proj_get_name(vertical.get());
 }
 
 std::string Crs::whole_wkt() const {

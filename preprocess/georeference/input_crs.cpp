@@ -130,10 +130,24 @@ std::optional<CrsDefinition> parse_longitude_first(const std::string& text) {
   return CrsDefinition{found[1].str() == "83" ? "EPSG:4269" : "EPSG:4326", true};
 }
 
+/// "+7837" for "DE_DHHN2016_NH*GCG2016", the part behind the star; nothing where the register has no such system.
+std::string heights_of_adv(const std::string& text) {
+  static const std::array<std::pair<std::regex, const char*>, 5> names{{
+      {std::regex(R"(DE_DHHN2016_NH(\*.*)?)", ignoring_case), "+7837"},
+      {std::regex(R"(DE_DHHN92_NH(\*.*)?)", ignoring_case), "+5783"},
+      {std::regex(R"(DE_DHHN85_(?:NOH|NN)(\*.*)?)", ignoring_case), "+5784"},
+      {std::regex(R"(DE_DHHN12_NOH(\*.*)?)", ignoring_case), "+7699"},
+      {std::regex(R"(DE_SNN76_NH(\*.*)?)", ignoring_case), "+5785"},
+  }};
+  for (const auto& [name, code] : names)
+    if (std::regex_match(text, name)) return code;
+  return {};
+}
+
 /// "urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH*GCG2016". The realisation of a federal state ("DE_DHDN_3GK2_NW101") has the EPSG code
 /// of the national CRS.
 std::optional<CrsDefinition> parse_adv(const std::string& text) {
-  static const std::regex form(R"((?:urn:)?adv:crs:([^*]+)(?:\*.*)?)", ignoring_case);
+  static const std::regex form(R"((?:urn:)?adv:crs:([^*]+)(?:\*(.*))?)", ignoring_case);
   static const std::regex utm(R"(ETRS89_UTM(2[89]|3[0-8]))", ignoring_case);
   static const std::array<std::pair<std::regex, const char*>, 13> names{{
       {std::regex("ETRS89_Lat-Lon", ignoring_case), "EPSG:4258"},
@@ -153,9 +167,10 @@ std::optional<CrsDefinition> parse_adv(const std::string& text) {
   std::smatch found, zone;
   if (!std::regex_match(text, found, form)) return std::nullopt;
   const std::string horizontal = found[1].str();
-  if (std::regex_match(horizontal, zone, utm)) return CrsDefinition{"EPSG:258" + zone[1].str()};
+  const std::string heights = heights_of_adv(found[2].str());
+  if (std::regex_match(horizontal, zone, utm)) return CrsDefinition{"EPSG:258" + zone[1].str() + heights};
   for (const auto& [name, code] : names)
-    if (std::regex_match(horizontal, name)) return CrsDefinition{code};
+    if (std::regex_match(horizontal, name)) return CrsDefinition{horizontal.ends_with("-h") ? code : code + heights};
   return std::nullopt;
 }
 

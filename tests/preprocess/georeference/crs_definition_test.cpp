@@ -86,16 +86,18 @@ INSTANTIATE_TEST_SUITE_P(LongitudeFirst, CrsDefinitionOf,
 
 INSTANTIATE_TEST_SUITE_P(
     GermanSurveys, CrsDefinitionOf,
-    testing::Values(
-        Naming{"urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH*GCG2016", {"EPSG:25832"}},
-        Naming{"urn:adv:crs:ETRS89_UTM33*DE_DHHN92_NH", {"EPSG:25833"}}, Naming{"urn:adv:crs:ETRS89_UTM31", {"EPSG:25831"}},
-        Naming{"urn:adv:crs:ETRS89_Lat-Lon", {"EPSG:4258"}}, Naming{"urn:adv:crs:DE_DHDN_3GK2_NW101", {"EPSG:31466"}},
-        Naming{"urn:adv:crs:DE_DHDN_3GK3*DE_DHN92_NH", {"EPSG:31467"}}, Naming{"urn:adv:crs:DE_DHDN_3GK4", {"EPSG:31468"}},
-        Naming{"urn:adv:crs:DE_DHDN_3GK5", {"EPSG:31469"}}, Naming{"urn:adv:crs:ETRS89_UTM28", {"EPSG:25828"}},
-        Naming{"urn:adv:crs:ETRS89_UTM38*DE_DHHN2016_NH", {"EPSG:25838"}}, Naming{"urn:adv:crs:ETRS89_Lat-Lon-h", {"EPSG:4937"}},
-        Naming{"urn:adv:crs:DE_DHDN_Lat-Lon*DE_DHHN92_NH", {"EPSG:4314"}},
-        Naming{"urn:adv:crs:DE_RD-83_3GK5*DE_DHHN92_NH", {"EPSG:3399"}}, Naming{"urn:adv:crs:DE_PD-83_3GK4", {"EPSG:3397"}},
-        Naming{"urn:adv:crs:DE_42-83_3GK4", {"EPSG:2398"}}));
+    testing::Values(Naming{"urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH*GCG2016", {"EPSG:25832+7837"}},
+                    Naming{"urn:adv:crs:ETRS89_UTM33*DE_DHHN92_NH", {"EPSG:25833+5783"}},
+                    Naming{"urn:adv:crs:ETRS89_UTM31", {"EPSG:25831"}}, Naming{"urn:adv:crs:ETRS89_Lat-Lon", {"EPSG:4258"}},
+                    Naming{"urn:adv:crs:DE_DHDN_3GK2_NW101", {"EPSG:31466"}},
+                    Naming{"urn:adv:crs:DE_DHDN_3GK3*DE_DHN92_NH", {"EPSG:31467"}},
+                    Naming{"urn:adv:crs:DE_DHDN_3GK4", {"EPSG:31468"}}, Naming{"urn:adv:crs:DE_DHDN_3GK5", {"EPSG:31469"}},
+                    Naming{"urn:adv:crs:ETRS89_UTM28", {"EPSG:25828"}},
+                    Naming{"urn:adv:crs:ETRS89_UTM38*DE_DHHN2016_NH", {"EPSG:25838+7837"}},
+                    Naming{"urn:adv:crs:ETRS89_Lat-Lon-h", {"EPSG:4937"}},
+                    Naming{"urn:adv:crs:DE_DHDN_Lat-Lon*DE_DHHN92_NH", {"EPSG:4314+5783"}},
+                    Naming{"urn:adv:crs:DE_RD-83_3GK5*DE_DHHN92_NH", {"EPSG:3399+5783"}},
+                    Naming{"urn:adv:crs:DE_PD-83_3GK4", {"EPSG:3397"}}, Naming{"urn:adv:crs:DE_42-83_3GK4", {"EPSG:2398"}}));
 
 INSTANTIATE_TEST_SUITE_P(BareNames, CrsDefinitionOf,
                          testing::Values(Naming{"Amersfoort / RD New", {"Amersfoort / RD New", false, true}},

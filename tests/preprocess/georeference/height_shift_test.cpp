@@ -32,6 +32,14 @@ TEST(HeightShift, NamesTheVerticalSystem) {
   EXPECT_THAT(crs("EPSG:4979").heights_name(), Optional(std::string("ellipsoidal heights of WGS 84")));
 }
 
+TEST(HeightShift, ANameThatSaysNothingNamesNone) {
+  const std::string before = R"(COMPD_CS["a",)" + crs("EPSG:25832").wkt() + R"(,VERT_CS[")",
+                    behind = R"(",VERT_DATUM["unknown",2005],UNIT["metre",1],AXIS["Up",UP]]])";
+  for (const char* name : {"unknown", "Unknown", "unnamed", "Unknown VCS"})
+    EXPECT_EQ(crs(before + name + behind).heights_name(), std::nullopt) << name;
+  EXPECT_THAT(crs(before + "of my town" + behind).heights_name(), Optional(std::string("of my town")));
+}
+
 TEST(HeightShift, IsThatOfTheGrid) {
   const HeightShift shift(crs("EPSG:4979"), crs("EPSG:32632+5773"), lon_lat_deg);
   ASSERT_TRUE(shift.is_needed() && shift.is_known());
