@@ -15,18 +15,6 @@
 #include "farlod/error.hpp"
 
 namespace farlod {
-namespace {
-
-/// All digits.
-std::string text_of(double number) {
-  std::ostringstream text;
-  text.precision(std::numeric_limits<double>::max_digits10);
-  text << number;
-  return std::move(text).str();
-}
-
-}  // namespace
-
 void refuse_raster(const std::filesystem::path& file, const std::string& what) {
   const std::string reason = CPLGetLastErrorMsg();
   throw InputError(file.string() + ": " + what + (reason.empty() ? "" : " (" + reason + ")"));
@@ -37,6 +25,9 @@ GDALDatasetUniquePtr open_height_raster(GdalReach reach, const std::filesystem::
   CPLErrorReset();
   GDALDatasetUniquePtr dataset = chosen_raster(open_within(reach, file, GDAL_OF_RASTER), file, choice);
   if (!dataset || dataset->GetRasterCount() < 1) refuse_raster(file, what_it_is_not);
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  if (dataset->GetRasterCount() >= 3 && band.GetRasterDataType() == GDT_Byte && band.GetColorInterpretation() == GCI_RedBand)
+    refuse_raster(file, "is a picture of red, green and blue, and has no heights");
   return dataset;
 }
 
@@ -79,7 +70,6 @@ GDALDatasetUniquePtr warped_raster(GDALDataset& dataset, const WarpWay& way) {
     words.insert(words.end(),
                  {"-te", std::to_string(low.x), std::to_string(low.y), std::to_string(high.x), std::to_string(high.y)});
   }
-  if (way.no_data) words.insert(words.end(), {"-srcnodata", text_of(*way.no_data)});
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
@@ -99,6 +89,12 @@ bool read_pixels(GDALRasterBand& band, int column, int row, std::vector<double>&
   for (std::size_t k = 0; k < values.size(); ++k)
     if (mask[k] == 0 || !std::isfinite(values[k])) values[k] = std::numeric_limits<double>::quiet_NaN();
   return true;
+}
+
+void forget_old_blocks() {
+  constexpr GIntBig kept_bytes = GIntBig{16} << 20U;
+  while (GDALGetCacheUsed64() > kept_bytes && GDALFlushCacheBlock() != FALSE) {
+  }
 }
 
 }  // namespace farlod

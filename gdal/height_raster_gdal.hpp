@@ -41,7 +41,6 @@ struct WarpWay {
   const char* resampling = "bilinear";  ///< as GDAL calls it
   std::optional<double> step = {};      ///< of the pixels, which are squares; empty: a similar resolution
   std::optional<Box2d> extent = {};     ///< with `step`
-  std::optional<double> no_data = {};   ///< a number that stands for no data, which the raster does not declare
 };
 /// The raster in another CRS; pixels are computed when they are read. Empty where GDAL cannot.
 [[nodiscard]] GDALDatasetUniquePtr warped_raster(GDALDataset& dataset, const WarpWay& way);
@@ -49,5 +48,8 @@ struct WarpWay {
 /// Reads pixels of a row. Those that are masked, have no data, or are not finite become NaN. Scale and offset of the band are not
 /// applied. Returns false when the file is cut short.
 [[nodiscard]] bool read_pixels(GDALRasterBand& band, int column, int row, std::vector<double>& values);
+
+/// GDAL keeps what it has read, up to a twentieth of the memory that there is: for what is read once, call this now and then.
+void forget_old_blocks();
 
 }  // namespace farlod

@@ -19,6 +19,7 @@
 #include "georeference/crs.hpp"
 #include "georeference/height_shift.hpp"
 #include "georeference/placed_raster_gdal.hpp"
+#include "georeference/raster_stand_ins_gdal.hpp"
 #include "georeference/resolved_source.hpp"
 
 namespace farlod::georeference {
@@ -27,7 +28,14 @@ struct HeightSamples::Impl {
   PlacedRaster raster;
   std::optional<CrsTransformation> to_output = {}, from_output = {};  ///< none where the raster is in the output CRS
   Point2d origin_m = {};
+  std::vector<double> stand_ins = {};  ///< numbers that could be heights, but are none here
 
+  /// NaN where it is none.
+  [[nodiscard]] float height_m(float number) const {
+    const float height = raster.scale.metres(number);
+    const bool is_one = may_be_elevation(height) && std::find(stand_ins.begin(), stand_ins.end(), number) == stand_ins.end();
+    return is_one ? height : std::numeric_limits<float>::quiet_NaN();
+  }
   [[nodiscard]] GDALRasterBand& band() const { return *raster.dataset().GetRasterBand(1); }
 };
 
@@ -45,13 +53,6 @@ bool read_square(GDALRasterBand& band, const PixelLattice& l, int first, int col
                        &nearest) == CE_None;
 }
 
-/// GDAL keeps what it has read, up to a twentieth of the memory that there is, though squares are read once.
-void forget_old_blocks() {
-  constexpr GIntBig kept_bytes = GIntBig{16} << 20U;
-  while (GDALGetCacheUsed64() > kept_bytes && GDALFlushCacheBlock() != FALSE) {
-  }
-}
-
 /// How many nodes of a lattice a raster has along a side.
 int nodes_within(std::int64_t begin, const PixelLattice& l, std::int64_t count) {
   const std::int64_t step = l.step, last = count - begin + step / 2;
@@ -65,7 +66,8 @@ HeightSamples::HeightSamples(const TerrainFile& file, const std::string& fallbac
   const GdalErrors quiet;
   impl_ = std::make_unique<Impl>(
       Impl{{file.path, open_height_raster(file.is_named ? GdalReach::local_files : GdalReach::own_data, file.path,
-                                          "is not a raster of heights that can be read", {file.layer, false})}});
+                                          "is not a raster of heights that can be read; of a folder, give each file",
+                                          {file.layer, false})}});
   PlacedRaster& raster = impl_->raster;
   const auto output = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(output.has_value());
@@ -73,6 +75,8 @@ HeightSamples::HeightSamples(const TerrainFile& file, const std::string& fallbac
   const PixelFrame frame = raster.frame();
   const double column = 0.5 * raster.columns(), row = 0.5 * raster.rows();
   report_place(file.path.string(), crs, frame.place(column, row), frame.place(column + 1.0, row), report);
+  for (const StandInOfFile& found : sampled_stand_ins(raster, plausibility::HeightsOf::ground))
+    impl_->stand_ins.push_back(found.number);
   impl_->origin_m = georeference.origin_m;
   Point2d city = georeference.origin_m;
   if (!crs.equals(*output)) {
@@ -105,11 +109,8 @@ std::optional<double> HeightSamples::read(const PixelLattice& l, std::span<float
   for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
     for (std::size_t n = row * l.nodes; n < row * l.nodes + static_cast<std::size_t>(columns); ++n) {
       if (mask[n] == 0.0F || !std::isfinite(numbers[n])) continue;
-      const float height = impl_->raster.scale.metres(numbers[n]);
-      if (may_be_elevation(height))
-        height_m[n] = height;
-      else
-        stand_in = numbers[n];
+      height_m[n] = impl_->height_m(numbers[n]);
+      if (std::isnan(height_m[n])) stand_in = numbers[n];
     }
   return stand_in;
 }

@@ -53,7 +53,7 @@ Crs PlacedRaster::take_crs(const std::string& fallback_crs, const Crs& output) {
 }
 
 void PlacedRaster::warp(const WarpWay& way, const Crs& output) {
-  warped = warped_raster(*file, way);
+  warped = warped_raster(unwarped(), way);
   if (!warped) refuse_raster(path, "cannot be brought into " + output.name());
 }
 

@@ -54,11 +54,13 @@ struct PixelFrame {
 /// A raster that is open.
 struct PlacedRaster {
   std::filesystem::path path;
-  std::shared_ptr<GDALDataset> file, warped = {};  ///< `warped` is empty when the file is used as it is
+  std::shared_ptr<GDALDataset> file, cleared = {};  ///< `cleared` has no data where the file does not declare it
+  std::shared_ptr<GDALDataset> warped = {};         ///< empty when the pixels stay where they are
   HeightScale scale = {};
   std::string note = {};  ///< what was done to it, for the user
 
-  [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : *file; }
+  [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : unwarped(); }
+  [[nodiscard]] GDALDataset& unwarped() const { return cleared ? *cleared : *file; }
   [[nodiscard]] int columns() const;
   [[nodiscard]] int rows() const;
   [[nodiscard]] std::optional<float> height_m(double number) const {

@@ -17,6 +17,7 @@
 #include "georeference/input_crs.hpp"
 #include "georeference/placed_raster_gdal.hpp"
 #include "georeference/raster_reader.hpp"
+#include "georeference/raster_stand_ins_gdal.hpp"
 #include "georeference/resolved_source.hpp"
 #include "plausibility/stand_ins.hpp"
 
@@ -51,25 +52,6 @@ RasterWindow window_of(const PlacedRaster& raster, const std::optional<Box2d>& w
   return {column, row, column_end, row_end};
 }
 
-/// A number that stands for no data, and the first of its pixels in the CRS of the file.
-struct StandInOfFile {
-  double number = 0.0;
-  Point2d place;
-};
-
-/// `where` begins the detail.
-void report_stand_in(const PlacedRaster& raster, const Crs& own, const StandInOfFile& found, const std::string& where,
-                     Report& report) {
-  std::ostringstream text;
-  text.precision(9);
-  text << where << found.number << " is no height here, and counts as no data; gdal_edit.py -a_nodata " << found.number
-       << " declares it";
-  Problem problem{ProblemCode::undeclared_no_data, raster.path.string(), "band 1", std::move(text).str(),
-                  Point3d{found.place.x, found.place.y, 0.0}};
-  ProblemLocator(own, FileAxes{}, found.place).locate(problem);
-  report.add(std::move(problem));
-}
-
 /// Masked pixels are empty; nothing when the file is cut short.
 std::optional<TerrainRaster> read_window(const PlacedRaster& raster, const RasterWindow& w, Point2d origin) {
   const PixelFrame frame = raster.frame();
@@ -86,29 +68,6 @@ std::optional<TerrainRaster> read_window(const PlacedRaster& raster, const Raste
     for (const double value : values) terrain.height_m.push_back(raster.height_m(value));
   }
   return terrain;
-}
-
-/// What stands for no data, by a sample of the raster that is spread over all of it. Empty where the raster declares it itself.
-std::optional<StandInOfFile> sampled_stand_in(const PlacedRaster& raster, HeightsOf of) {
-  constexpr int most = 512;
-  GDALRasterBand& band = *raster.file->GetRasterBand(1);
-  int is_declared = 0;
-  (void)band.GetNoDataValue(&is_declared);
-  if (is_declared != 0) return std::nullopt;
-  const int columns = std::min(band.GetXSize(), most), rows = std::min(band.GetYSize(), most);
-  std::vector<double> numbers(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  if (band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), numbers.data(), columns, rows, GDT_Float64, 0, 0, nullptr) !=
-      CE_None)
-    return std::nullopt;
-  std::vector<std::optional<float>> heights_m;
-  for (const double number : numbers) heights_m.push_back(raster.height_m(number));
-  const auto found = plausibility::take_out_stand_ins(heights_m, of);
-  if (found.empty()) return std::nullopt;
-  const std::size_t first = found.front().first, row = first / static_cast<std::size_t>(columns),
-                    column = first % static_cast<std::size_t>(columns);
-  return StandInOfFile{numbers[found.front().first],
-                       raster.frame().place((static_cast<double>(column) + 0.5) * band.GetXSize() / columns,
-                                            (static_cast<double>(row) + 0.5) * band.GetYSize() / rows)};
 }
 
 /// Walls of a surface model stand between two pixels. Resampled bilinearly they lean over two pixels, which shows up to .014 more
@@ -148,10 +107,7 @@ ReadyRaster make_ready(const TerrainFile& file, const std::string& fallback_crs,
   report_place(file.path.string(), crs, frame.place(middle.x, middle.y), frame.place(middle.x + 1.0, middle.y), report);
   if (!crs.equals(output) || !frame.is_north_up()) {
     WarpWay way{crs.wkt(), output.wkt()};
-    if (const auto found = sampled_stand_in(raster, of)) {
-      way.no_data = found->number;
-      report_stand_in(raster, crs, *found, "", report);
-    }
+    clear_stand_ins(raster, of, crs, report);
     if (of == HeightsOf::surfaces)
       bring_into_fine_squares(raster, std::move(way), crs, output);
     else
@@ -167,20 +123,19 @@ void require_heights(TerrainRaster& terrain, const PlacedRaster& raster, Heights
   for (const plausibility::StandIn& found : plausibility::take_out_stand_ins(terrain.height_m, of)) {
     if (raster.warped) continue;
     const Point2d place = terrain.node(found.first % terrain.columns, found.first / terrain.columns) + origin_m;
-    report_stand_in(raster, output, {raster.scale.number(found.height_m), place},
+    report_stand_in(raster.path.string(), output, {raster.scale.number(found.height_m), place},
                     std::to_string(found.pixels) + " of " + std::to_string(all) + " pixels here: ", report);
   }
 }
 
 /// The pixels that have a height, in the CRS of the projection.
-std::vector<Point3d> centres_of_row(const PlacedRaster& raster, const PixelFrame& frame, int row,
-                                    const std::optional<StandInOfFile>& stand_in, const Projection& projection) {
+std::vector<Point3d> centres_of_row(const PlacedRaster& raster, const PixelFrame& frame, int row, const Projection& projection) {
   std::vector<double> numbers(static_cast<std::size_t>(raster.columns()));
   if (!read_pixels(*raster.dataset().GetRasterBand(1), 0, row, numbers)) refuse_raster(raster.path, "cannot be read to its end");
   std::vector<Point3d> points;
   for (std::size_t column = 0; column < numbers.size(); ++column) {
     const auto height_m = raster.height_m(numbers[column]);
-    if (!height_m || (stand_in && numbers[column] == stand_in->number)) continue;
+    if (!height_m) continue;
     const Point2d p = frame.place(static_cast<double>(column) + 0.5, row + 0.5);
     points.push_back({p.x, p.y, *height_m});
   }
@@ -241,12 +196,11 @@ std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const 
   if (own.equals(*output) && frame.is_north_up()) return std::nullopt;
   const Point2d middle{0.5 * raster.columns(), 0.5 * raster.rows()};
   report_place(file.path.string(), own, frame.place(middle.x, middle.y), frame.place(middle.x + 1.0, middle.y), report);
-  const auto stand_in = sampled_stand_in(raster, HeightsOf::surfaces);
-  if (stand_in) report_stand_in(raster, own, *stand_in, "", report);
+  clear_stand_ins(raster, HeightsOf::surfaces, own, report);
   const Projection projection = make_projection(own, *output, frame.place(middle.x, middle.y));
   TurnedSurface surface;
   for (int row = 0; row < raster.rows(); ++row)
-    for (const Point3d& p : centres_of_row(raster, frame, row, stand_in, projection))
+    for (const Point3d& p : centres_of_row(raster, frame, row, projection))
       if (is_on_a_map(p)) surface.points_city.push_back(p - Point3d{georeference.origin_m.x, georeference.origin_m.y, 0.0});
   surface.note = file.path.string() + ": since " + (own.equals(*output) ? "it is turned" : "it is in " + own.name()) +
                  ", the centres of its pixels are brought to " + output->name() + " one by one, and nothing is resampled";

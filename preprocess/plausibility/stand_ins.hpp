@@ -23,9 +23,9 @@ struct StandIn {
 
 /// Empties the pixels that hold a stand-in, and returns all stand-ins, the most frequent first.
 ///   (1) heights below lowest_elevation_m or above highest_elevation_m, which no place on land has (-9999, -32768, -3.4e38)
-///   (2) heights of exactly 0 where all others are higher: by 20 m for a ground, which slopes down to a sea elsewhere; by 100 m
-///   for
-///       surfaces, since a raster may count from its own ground
+///   (2) heights of exactly 0 or -1 where all others are higher: than 20 m for a ground, which slopes down to a sea elsewhere;
+///   than
+///       100 m for surfaces, since a raster may count from its own ground
 [[nodiscard]] std::vector<StandIn> take_out_stand_ins(std::vector<std::optional<float>>& heights_m, HeightsOf of);
 
 }  // namespace farlod::plausibility

@@ -142,6 +142,21 @@ TEST_F(FarTerrain, IsAskedWhatATerrainIs) {
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
 }
 
+TEST_F(FarTerrain, WhereOneHasNothingButZerosTheNextOneShows) {
+  folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }));
+  const auto half = [](double side, double height_m) {
+    return ascii_grid([=](Point2d p) { return side * p.x < 0.0 ? height_m : norm(p) < 2000.0 ? 100.0 : 700.0; }, 50.0, 3000.0);
+  };
+  const double slope = 600.0 / 2025.0, expected = 1.0 / (1.0 + slope * slope);
+  for (const double nothing : {0.0, -1.0, -32768.0}) {
+    folder.write("east.asc", half(1.0, nothing));
+    folder.write("west.asc", half(-1.0, nothing));
+    pack("--terrain terrain.asc --far-terrain east.asc --far-terrain west.asc --force");
+    EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("problems").at("211"), 2) << nothing;
+    EXPECT_NEAR(at_middle("").number(0, "svf"), expected, 0.004) << nothing;
+  }
+}
+
 TEST_F(FarTerrain, OneThatCannotBeReadIsRefused) {
   EXPECT_EQ(folder.run("farlod-pack slab.geojson -o a.farlod --far-terrain absent.tif").exit_code, 3);
 }

@@ -26,6 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::NanSensitiveFloatEq;
 using testing::Optional;
+using testing::UnorderedElementsAre;
 
 class TerrainReader : public testing::Test {
  protected:
@@ -339,6 +340,25 @@ TEST_F(TerrainReader, TheyAreNotMixedIntoTheirNeighborsWhereARasterIsResampled) 
   const auto path = with_hole(file("hole.tif"), "EPSG:4326", {11.55, 1e-4, 0.0, 48.14, 0.0, -1e-4}, -9999.0);
   const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}), std::nullopt, report);
   EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 -9999 is no height here")));
+  for (const auto& height_m : terrain.height_m)
+    if (height_m) {
+      EXPECT_FLOAT_EQ(*height_m, 500.0F);
+    }
+}
+
+TEST_F(TerrainReader, SeveralOfThemInOneRasterAreNotMixedEither) {
+  // As a warp leaves it: zeros around a raster with holes of another number, and a third one that is declared
+  const auto dataset = make_raster(file("holes.tif"), {"EPSG:4326", {11.55, 1e-4, 0.0, 48.14, 0.0, -1e-4}, 20, 20, GDT_Float32});
+  dataset->GetRasterBand(1)->SetNoDataValue(-9999.0);
+  fill(*dataset, [](int column, int row) {
+    if (column < 3) return row < 3 ? -9999.0 : 0.0;
+    return column > 10 && row > 10 ? -32768.0 : 500.0;
+  });
+  dataset->FlushCache();
+  const TerrainRaster terrain =
+      read_terrain(file("holes.tif"), "", georeference_of_terrain(file("holes.tif"), {}), std::nullopt, report);
+  EXPECT_THAT(told(report),
+              UnorderedElementsAre(HasSubstr("211 -32768 is no height here"), HasSubstr("211 0 is no height here")));
   for (const auto& height_m : terrain.height_m)
     if (height_m) {
       EXPECT_FLOAT_EQ(*height_m, 500.0F);

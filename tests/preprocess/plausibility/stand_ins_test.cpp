@@ -39,11 +39,14 @@ TEST(StandIns, AreZerosFarBelowAllOtherHeights) {
   EXPECT_EQ(taken(0.0F, {480.0F, 500.0F}), 2u);
   EXPECT_EQ(taken(0.0F, {480.0F, 500.0F}, HeightsOf::surfaces), 2u);
   EXPECT_EQ(taken(0.0F, {25.0F, 40.0F}), 2u);
+  EXPECT_EQ(taken(-1.0F, {25.0F, 40.0F}), 2u);
+  EXPECT_EQ(taken(-1.0F, {0.0F, 25.0F, 40.0F}), 3u) << "both";
 }
 
 TEST(StandIns, AreNoZerosOfASeaOrOfARasterThatCountsFromItsOwnGround) {
   EXPECT_EQ(taken(0.0F, {0.4F, 25.0F, 480.0F}), 0u) << "a coast";
   EXPECT_EQ(taken(0.0F, {-2.0F, 480.0F}), 0u) << "a polder";
+  EXPECT_EQ(taken(-1.0F, {-1.2F, 480.0F}), 0u) << "a polder";
   EXPECT_EQ(taken(0.0F, {}), 0u) << "a plain";
   EXPECT_EQ(taken(0.0F, {25.0F, 40.0F}, HeightsOf::surfaces), 0u) << "roofs above a ground at 0";
 }
