@@ -17,6 +17,7 @@
 #include "far_terrain/right_triangles.hpp"
 #include "farlod/error.hpp"
 #include "georeference/height_samples.hpp"
+#include "georeference/raster_reader.hpp"
 #include "package/tiles_writer.hpp"
 #include "plausibility/border_step.hpp"
 #include "tiles/horizon_edges.hpp"
@@ -320,6 +321,14 @@ void judge(const FarTerrainSource& source, const FarTerrainMaker::Found& found, 
   report.add({ProblemCode::another_datum, file, "the whole file", what, middle});
 }
 
+/// Where the city does not say its vertical system, it is in that of its ground: of the first tile that says one, which lies
+/// below the others.
+Georeference with_heights_of_ground(Georeference place, std::span<const FarTerrainSource> sources) {
+  for (auto source = sources.rbegin(); source != sources.rend() && place.heights_wkt.empty(); ++source)
+    if (source->is_ground) place.heights_wkt = georeference::heights_of_terrain(source->file);
+  return place;
+}
+
 /// The rasters around a city, and where they have heights.
 struct RastersAround {
   std::span<const FarTerrainSource> sources;
@@ -329,8 +338,9 @@ struct RastersAround {
   RastersAround(std::span<const FarTerrainSource> of, const std::string& fallback_crs, const CityGround& city, Report& report)
       : sources(of) {
     Report told;  // when the ground was read
+    const Georeference place = with_heights_of_ground(city.georeference, of);
     for (const FarTerrainSource& source : sources)
-      rasters.emplace_back(source.file, fallback_crs, city.georeference, source.is_ground ? told : report);
+      rasters.emplace_back(source.file, fallback_crs, place, source.is_ground ? told : report);
     for (std::size_t n = 0; n + 1 < rasters.size(); ++n) coverages.emplace_back(rasters[n], city.grid);
   }
 };

@@ -62,6 +62,8 @@ struct TerrainExtent {
 [[nodiscard]] std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::string& fallback_crs,
                                                         const Georeference& georeference, std::optional<Box2d> wanted_city,
                                                         Report& report);
+/// The vertical system that the file says; empty where it says none.
+[[nodiscard]] std::string heights_of_terrain(const TerrainFile& file);
 /// Reads the tiles of one terrain, of which some may lie elsewhere. Throws InputError when all do, and as for a single file.
 /// Where neither the city nor a file before says its vertical system, that of a file is the one of those after it.
 [[nodiscard]] TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs,

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/raster_reader.hpp"
+#include "georeference/resolved_source.hpp"
+#include "plausibility/terrain_seams.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -61,7 +65,49 @@ void lay_upon(TerrainRaster& net, const TerrainRaster& tile) {
     }
 }
 
+/// A whole tile of a terrain that is doubted.
+void report_tile(ProblemCode code, const TerrainFile& file, const TerrainRaster& tile, const Georeference& georeference,
+                 std::string detail, Report& report) {
+  const Point2d place = tile.node(tile.columns / 2, tile.rows / 2) + georeference.origin_m;
+  Problem problem{code, file.path.string(), "the whole file", std::move(detail), Point3d{place.x, place.y, 0.0}};
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  ProblemLocator(*output, FileAxes{}, place).locate(problem);
+  report.add(std::move(problem));
+}
+
+std::string detail_of_seam(double step_m, const TerrainFile& below) {
+  std::ostringstream text;
+  text.precision(1);
+  text << std::fixed << "where it meets " << below.path.string() << ", it is " << std::abs(step_m) << " m "
+       << (step_m > 0.0 ? "above" : "below") << " that: do both count in the same unit, from the same datum?";
+  return std::move(text).str();
+}
+
+/// Tiles of one terrain must agree where they meet.
+void compare_tiles(std::vector<TerrainRaster>& tiles, const std::vector<TerrainFile>& files, const Georeference& georeference,
+                   Report& report) {
+  for (const std::size_t n : plausibility::blank_tiles(tiles)) {
+    report_tile(ProblemCode::undeclared_no_data, files[n], tiles[n], georeference,
+                "it holds one number alone, which is no height beside the other tiles, and counts as no data", report);
+    std::fill(tiles[n].height_m.begin(), tiles[n].height_m.end(), std::nullopt);
+  }
+  for (std::size_t n = 1; n < tiles.size(); ++n)
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto seam = plausibility::seam_between(tiles[k], tiles[n]);
+      if (!seam) continue;
+      const std::string detail = detail_of_seam(seam->step_m, files[k]);
+      if (seam->is_impossible) throw InputError(files[n].path.string() + ": " + detail);
+      report_tile(ProblemCode::another_datum, files[n], tiles[n], georeference, detail, report);
+    }
+}
+
 }  // namespace
+
+std::string heights_of_terrain(const TerrainFile& file) {
+  const auto own = find_crs(read_terrain_extent(file).crs_wkt);
+  return own && own->crs.heights_name() ? own->crs.whole_wkt() : "";
+}
 
 TerrainRaster merged(const std::vector<TerrainRaster>& tiles) {
   TerrainRaster net = net_over(tiles);
@@ -76,16 +122,18 @@ TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string
                            std::optional<Box2d> wanted_city, Report& report) {
   if (files.size() == 1) return read_terrain(files.front(), fallback_crs, georeference, wanted_city, report);
   std::vector<TerrainRaster> tiles;
+  std::vector<TerrainFile> files_here;
   for (const TerrainFile& file : files) {
     auto tile = find_terrain(file, fallback_crs, georeference, wanted_city, report);
     if (!tile) continue;
     tiles.push_back(std::move(*tile));
-    const auto own = georeference.heights_wkt.empty() ? find_crs(read_terrain_extent(file).crs_wkt) : std::nullopt;
-    if (own && own->crs.heights_name()) georeference.heights_wkt = own->crs.whole_wkt();
+    files_here.push_back(file);
+    if (georeference.heights_wkt.empty()) georeference.heights_wkt = heights_of_terrain(file);
   }
   if (tiles.empty())
     throw InputError("none of the " + std::to_string(files.size()) + " files of --terrain covers the city, " +
                      files.front().path.string() + " being the first: check their CRS");
+  compare_tiles(tiles, files_here, georeference, report);
   return merged(tiles);
 }
 

@@ -77,6 +77,48 @@ TEST_F(TerrainTiles, MayLieElsewhereButNotAll) {
               HasSubstr("none of the 2 files of --terrain covers the city"));
 }
 
+/// Nine rows of the same two numbers.
+std::string rows_of(const std::string& numbers) {
+  std::string rows;
+  for (int n = 0; n < 9; ++n) rows += numbers + "\n";
+  return rows;
+}
+
+class TallTiles : public TerrainTiles {
+ protected:
+  [[nodiscard]] TerrainFile tall(const std::string& name, double x, const std::string& numbers) const {
+    std::ofstream(folder.file(name)) << "ncols 2\nnrows 9\nxllcorner " << x << "\nyllcorner 0\ncellsize 10\n" << rows_of(numbers);
+    return folder.file(name);
+  }
+  /// But for where the tiles lie.
+  [[nodiscard]] std::string told() const {
+    std::string text;
+    for (const Problem& problem : report.problems())
+      if (problem.code != ProblemCode::unlikely_place)
+        text += std::filesystem::path(problem.source).filename().string() + " " + std::to_string(static_cast<int>(problem.code)) +
+                ": " + problem.detail + "\n";
+    return text;
+  }
+};
+
+TEST_F(TallTiles, ThatDoNotAgreeAreTold) {
+  (void)read({tall("a.asc", 0.0, "500 501"), tall("b.asc", 20.0, "502 503")});
+  EXPECT_EQ(told(), "");
+  (void)read({tall("a.asc", 0.0, "500 501"), tall("b.asc", 20.0, "510 511")});
+  EXPECT_THAT(told(), testing::MatchesRegex("b.asc 212: where it meets .*a.asc, it is 8.0 m above that: .*\n"));
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] {
+                (void)read({tall("a.asc", 0.0, "500 501"), tall("b.asc", 20.0, "456 457")});
+              }),
+              HasSubstr("it is 46.0 m below that"));
+}
+
+TEST_F(TallTiles, OfNothingButZerosAreNoGround) {
+  const TerrainRaster terrain = read({tall("a.asc", 0.0, "500 501"), tall("b.asc", 20.0, "0 0")});
+  EXPECT_THAT(told(), testing::StartsWith("b.asc 211: it holds one number alone"));
+  EXPECT_THAT(terrain.height_m[1], Optional(501.0F));
+  EXPECT_EQ(terrain.height_m[2], std::nullopt);
+}
+
 /// Pixels of 2 m, turned by the angle of a triangle 3 : 4 : 5. A wall of 10 m stands between the first two columns and the rest.
 class TurnedSurfaces : public TerrainTiles {
  protected:
