@@ -15,6 +15,7 @@
 
 #include "farlod/error.hpp"
 #include "plausibility/elevations_as_heights.hpp"
+#include "plausibility/ground_at_buildings.hpp"
 
 namespace farlod::plausibility {
 namespace {
@@ -215,7 +216,9 @@ Box2d extent_of_survey(const std::optional<TerrainRaster>& terrain, std::span<co
 }
 
 void report_standing(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
+  require_ground_without_roofs(located, ground);
   require_heights_above_ground(located, ground.height_at);
+  report_roofs(located, ground, report);
   std::vector<FileStanding> files(std::max<std::size_t>(located.sources.size(), 1));
   std::size_t all = 0, impossible = 0;
   const CityModel& city = located.city;

@@ -36,7 +36,8 @@ struct SurveyedGround {
 ///       Reported once for each file. Of fewer than eight buildings, only offsets of 10 m count.
 ///   (2) beyond_terrain: buildings whose middle is outside of the extent of the survey. Reported once for each file.
 /// Throws InputError when what is told in (1) holds for most of the city, and no town can stand so: its roofs are below the
-/// ground, or its floors 10 m above it; and when heights of footprints are elevations (require_heights_above_ground).
+/// ground, or its floors 10 m above it; when heights of footprints are elevations (require_heights_above_ground); and when the
+/// ground has roofs in it (require_ground_without_roofs). Roofs without bases are compared, too (report_roofs).
 void report_standing(const LocatedCity& located, const SurveyedGround& ground, Report& report);
 
 }  // namespace farlod::plausibility
