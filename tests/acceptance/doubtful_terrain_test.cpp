@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "base/frame.hpp"
+#include "tests/acceptance/packed_town.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+using testing::HasSubstr;
+
+/// Ground that climbs eastwards.
+double climbing_m(Point2d p) { return 500.0 + 0.2 * p.x; }
+
+/// The same with the roofs of the town on it.
+double climbing_surface_m(Point2d p) {
+  const Point2d p_town = GridRotation(town_bearing).grid_from_city(p);
+  for (const Block& b : small_town())
+    if (std::max(std::abs(p_town.x - b.centre.x), std::abs(p_town.y - b.centre.y)) < 0.5 * b.edge_m)
+      return climbing_m(p) + b.height_m;
+  return climbing_m(p);
+}
+
+class DoubtfulTerrain : public testing::Test {
+ protected:
+  DoubtfulTerrain() { folder.write("town.geojson", footprints_geojson(small_town())); }
+  /// What the program says when it refuses the town with these arguments.
+  [[nodiscard]] std::string refusal(const std::string& arguments) const {
+    const auto outcome = folder.run("farlod-pack town.geojson -o a.farlod " + arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    return outcome.err;
+  }
+  WorkFolder folder;
+};
+
+TEST_F(DoubtfulTerrain, ASurfaceModelIsNone) {
+  folder.write("ground.asc", ascii_grid(climbing_m, 2.0, 300.0));
+  folder.write("surface.asc", ascii_grid(climbing_surface_m, 2.0, 300.0));
+  folder.must("farlod-pack town.geojson -o a.farlod --terrain ground.asc --strict");
+  EXPECT_THAT(refusal("--force --terrain surface.asc"), HasSubstr("--terrain has roofs in it, as a surface model (DSM) does"));
+}
+
+TEST_F(DoubtfulTerrain, OneTileOfAnotherDatumIsToldOrRefused) {
+  const auto east = [&](double above_m) {
+    folder.write("east.asc", ascii_grid([=](Point2d p) { return p.x > 0.0 ? climbing_m(p) + above_m : -9999.0; }));
+  };
+  folder.write("west.asc", ascii_grid([](Point2d p) { return p.x > 100.0 ? -9999.0 : climbing_m(p); }));
+  east(8.0);
+  folder.must("farlod-pack town.geojson -o a.farlod --terrain west.asc --terrain east.asc");
+  EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("problems").at("212"), 1);
+  east(-46.0);
+  EXPECT_THAT(refusal("--force --terrain west.asc --terrain east.asc"),
+              HasSubstr("east.asc: where it meets west.asc, it is 46.0 m "
+                        "below that"));
+}
+
+TEST_F(DoubtfulTerrain, APictureIsNone) {
+  std::string picture = "P6 20 20 255\n";
+  for (int n = 0; n < 20 * 20 * 3; ++n) picture.push_back(static_cast<char>(n % 100));
+  folder.write("picture.ppm", picture);
+  folder.write("picture.wld",
+               "50\n0\n0\n-50\n" + std::to_string(town_middle.x - 475.0) + "\n" + std::to_string(town_middle.y + 475.0) + "\n");
+  EXPECT_THAT(refusal("--terrain picture.ppm"), HasSubstr("is a picture of red, green and blue"));
+}
+
+}  // namespace
+}  // namespace farlod::acceptance
