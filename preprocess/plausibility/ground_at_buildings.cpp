@@ -56,6 +56,15 @@ std::string tenths_of_metres(double length_m) {
 struct RoofsOfFile {
   std::vector<double> above_ground_m;
   Point3d place;
+
+  void add(std::span<const Point3d> points, const KnownGroundHeightAt& ground_height) {
+    const Box2d box = outline_of_building(points);
+    const auto ground_m = ground_height(0.5 * (box.low + box.high));
+    if (!ground_m) return;
+    const auto by_height = [](const Point3d& p, const Point3d& q) { return p.z < q.z; };
+    if (above_ground_m.empty()) place = points.front();
+    above_ground_m.push_back(std::max_element(points.begin(), points.end(), by_height)->z - *ground_m);
+  }
 };
 
 }  // namespace
@@ -83,14 +92,7 @@ void report_roofs(const LocatedCity& located, const SurveyedGround& ground, Repo
   const CityModel& city = located.city;
   city.for_each_building([&](std::size_t, const Building& b) {
     const auto points = city.points_of(b);
-    if (b.height_reference != HeightReference::down_to_ground || points.empty()) return;
-    const Box2d box = outline_of_building(points);
-    const auto ground_m = ground.height_at(0.5 * (box.low + box.high));
-    if (!ground_m) return;
-    const auto by_height = [](const Point3d& p, const Point3d& q) { return p.z < q.z; };
-    RoofsOfFile& file = files[b.source];
-    if (file.above_ground_m.empty()) file.place = points.front();
-    file.above_ground_m.push_back(std::max_element(points.begin(), points.end(), by_height)->z - *ground_m);
+    if (b.height_reference == HeightReference::down_to_ground && !points.empty()) files[b.source].add(points, ground.height_at);
   });
   for (std::size_t n = 0; n < files.size(); ++n) {
     auto& [above_ground_m, place] = files[n];
