@@ -7,12 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <sstream>
 
 #include "base/lower_case.hpp"
-#include "farlod/angle.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
@@ -20,6 +18,7 @@
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "ingest/files/file_format.hpp"
+#include "ingest/footprints/feature_areas_ogr.hpp"
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/layer_choice_ogr.hpp"
@@ -52,48 +51,6 @@ std::string numeric_fields(OGRLayer& layer, const FeatureTable& table) {
   for (std::size_t f = 0; f < is_numeric.size(); ++f)
     if (is_numeric[f]) names.append(names.empty() ? "" : ", ").append(table.names()[f]);
   return names.empty() ? "no field with numbers" : "fields with numbers: " + names;
-}
-
-Ring ring_from(const OGRLinearRing& line) {
-  Ring ring;
-  for (int k = 0; k < line.getNumPoints(); ++k) ring.push_back({line.getX(k), line.getY(k), line.getZ(k)});
-  return ring;
-}
-
-/// The position of a feature without rings, for the report.
-std::optional<Point3d> middle_of(const OGRGeometry& geometry) {
-  OGREnvelope box;
-  geometry.getEnvelope(&box);
-  const Ring middle{{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY), 0.0}};
-  return first_readable({&middle, 1});
-}
-
-/// The areas of a feature.
-struct Areas {
-  std::vector<Rings> polygons;
-  bool holds_others = false;      ///< also geometries that are not areas
-  bool is_made_of_faces = false;  ///< is a polyhedral surface or a TIN
-  bool is_body = false;           ///< is a body in space, not an area on the ground
-};
-
-/// Collects the polygons of a geometry. Returns false when it contains something that is not an area.
-bool add_polygons(const OGRGeometry& geometry, Areas& areas) {
-  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-  if (OGR_GT_IsSubClassOf(type, wkbPolygon)) {
-    Rings& rings = areas.polygons.emplace_back();
-    for (const OGRLinearRing* ring : *geometry.toPolygon()) rings.push_back(ring_from(*ring));
-    return true;
-  }
-  if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
-    areas.is_made_of_faces = true;
-    const OGRPolyhedralSurface& surface = *geometry.toPolyhedralSurface();
-    for (int n = 0; n < surface.getNumGeometries(); ++n) add_polygons(*surface.getGeometryRef(n), areas);
-    return true;
-  }
-  if (type != wkbMultiPolygon && type != wkbGeometryCollection) return false;
-  bool all = true;
-  for (const OGRGeometry* member : *geometry.toGeometryCollection()) all = add_polygons(*member, areas) && all;
-  return all;
 }
 
 void flatten(Rings& rings) {
@@ -194,7 +151,8 @@ class FootprintLayer {
     layer_.ResetReading();
     Feature feature = next_feature(layer_);
     for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
-      if (feature->GetGeometryRef() != nullptr && !areas_of(*feature->GetGeometryRef()).polygons.empty()) return;
+      if (feature->GetGeometryRef() != nullptr && !areas_of(*feature->GetGeometryRef(), layer_.GetSpatialRef()).polygons.empty())
+        return;
     throw InputError(builder_.source() + " holds no areas, which footprints are: its layer " + layer_.GetName() +
                      " has other features. Bodies that it links to, as KML does, are to be exported as OBJ.");
   }
@@ -231,7 +189,8 @@ class FootprintLayer {
     layer_.ResetReading();
     Feature feature = next_feature(layer_);
     for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
-      if (feature->GetGeometryRef() != nullptr && areas_of(*feature->GetGeometryRef()).is_body) return true;
+      if (feature->GetGeometryRef() != nullptr && areas_of(*feature->GetGeometryRef(), layer_.GetSpatialRef()).is_body)
+        return true;
     return false;
   }
 
@@ -255,7 +214,7 @@ class FootprintLayer {
       return;
     }
     if (!is_building(feature, *geometry)) return;
-    Areas areas = areas_of(*geometry);
+    Areas areas = areas_of(*geometry, layer_.GetSpatialRef());
     if (areas.holds_others)
       builder_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName(),
                               middle_of(*geometry));
@@ -314,41 +273,9 @@ class FootprintLayer {
     const bool has_base = extent.height_reference == HeightReference::elevation;
     Box2d box;
     for (const Point3d& p : rings.front()) box.add(horizontal(p));
-    const Point2d scale = plan_scale(box.low), size = box.high - box.low;
+    const Point2d scale = plan_scale(layer_.GetSpatialRef(), box.low), size = box.high - box.low;
     heights.push_back({has_base ? extent.top_m - extent.base_m : extent.top_m, scale.x * size.x * scale.y * size.y, outline_m,
                        has_base ? std::optional(extent.base_m) : std::nullopt});
-  }
-
-  /// The factors that bring plan coordinates to the unit of the elevations, exact enough to tell a wall from a floor.
-  [[nodiscard]] Point2d plan_scale(Point2d p) const {
-    const OGRSpatialReference* reference = layer_.GetSpatialRef();
-    if (reference == nullptr || reference->IsGeographic() == 0) return {1.0, 1.0};
-    return {metres_in_a_degree * std::cos(Angle::degrees(p.y).radians()), metres_in_a_degree};
-  }
-
-  /// Whether a polygon is steeper than 45°, as walls are. No footprint that follows the terrain is as steep.
-  [[nodiscard]] bool is_steep(const Ring& ring) const {
-    if (ring.empty()) return false;
-    const Point2d scale = plan_scale(horizontal(ring.front()));
-    const auto from_first = [&](const Point3d& p) {
-      const Point3d d = p - ring.front();
-      return Point3d{scale.x * d.x, scale.y * d.y, d.z};
-    };
-    Point3d sum;
-    for (std::size_t k = 2; k < ring.size(); ++k) sum = sum + cross(from_first(ring[k - 1]), from_first(ring[k]));
-    return std::hypot(sum.x, sum.y) > std::abs(sum.z);
-  }
-
-  [[nodiscard]] Areas areas_of(const OGRGeometry& geometry) const {
-    // Arcs become chords of the default length of GDAL
-    const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
-    Areas areas;
-    areas.holds_others = !straight || !add_polygons(*straight, areas);
-    const auto steep = [this](const Rings& rings) { return !rings.empty() && is_steep(rings.front()); };
-    const bool is_surface =
-        areas.is_made_of_faces || (areas.polygons.size() > 1 && std::any_of(areas.polygons.begin(), areas.polygons.end(), steep));
-    areas.is_body = geometry.Is3D() != 0 && is_surface;
-    return areas;
   }
 
   OGRLayer& layer_;
