@@ -24,24 +24,24 @@ constexpr std::array other_names{"tree"sv,       "trees"sv,         "forest"sv,
                                  "furniture"sv,  "cityfurniture"sv, "separation"sv};
 
 /// Bytes beyond ASCII are letters of other scripts, in UTF-8.
-bool is_letter(char c) { return ('a' <= c && c <= 'z') || (c & 0x80) != 0; }
+bool is_letter_of_a_name(char c) { return ('a' <= c && c <= 'z') || (c & 0x80) != 0; }
 
 /// The first word of a name of which nothing else is a word but one of a geometry: numbers and signs may follow.
 std::string only_word_of(std::string_view name) {
   const std::string lower = lower_case(name);
-  const auto end = std::find_if_not(lower.begin(), lower.end(), is_letter);
-  const auto second = std::find_if(end, lower.end(), is_letter);
-  const auto behind = std::find_if_not(second, lower.end(), is_letter);
+  const auto end = std::find_if_not(lower.begin(), lower.end(), is_letter_of_a_name);
+  const auto second = std::find_if(end, lower.end(), is_letter_of_a_name);
+  const auto behind = std::find_if_not(second, lower.end(), is_letter_of_a_name);
   const bool is_alone =
       second == lower.end() || std::ranges::find(words_of_geometry, std::string(second, behind)) != words_of_geometry.end();
-  return is_alone && std::none_of(behind, lower.end(), is_letter) ? std::string(lower.begin(), end) : "";
+  return is_alone && std::none_of(behind, lower.end(), is_letter_of_a_name) ? std::string(lower.begin(), end) : "";
 }
 
 /// Whether a name is that of a user, behind which numbers and signs may follow. The user's may have several words.
 bool is_called(std::string_view name, const std::string& by_user) {
   const std::string lower = lower_case(name), wanted = lower_case(by_user);
   return lower.starts_with(wanted) &&
-         std::none_of(lower.begin() + static_cast<std::ptrdiff_t>(wanted.size()), lower.end(), is_letter);
+         std::none_of(lower.begin() + static_cast<std::ptrdiff_t>(wanted.size()), lower.end(), is_letter_of_a_name);
 }
 
 std::vector<MeshClass> classes_of(const std::vector<std::string>& names, std::span<const std::string> ground_names) {

@@ -53,7 +53,7 @@ TEST(PointReader, EverySeparatorAndLineEndGivesTheSame) {
 
 TEST(PointReader, FindsColumnsByAnyOfTheirNames) {
   for (const char* header : {"y,x,z,id", "Northing,EASTING,Elevation,Name", "lat,lon,height_m,fid", "latitude,longitude,z_m,ID",
-                             "y_m,x_m,Z,id", "LNG,Lat,z,id"}) {
+                             "y_m,x_m,Z,id", "Lat,LNG,z,id"}) {
     const std::vector<RequestedPoint> points = points_in(std::string(header) + "\n-2,1.5,3,a\n5,4,,b\n");
     expect_the_two_points(points);
     EXPECT_EQ(points[0].id, "a");
