@@ -67,7 +67,7 @@ bool lies_in_plan(const CityModel& city, const Building& building, Point2d p) {
   const auto facets = city.facets_of(building);
   return std::any_of(facets.begin(), facets.end(), [&](const Facet& facet) {
     bool inside = false;
-    for (std::uint32_t k = 0; k < facet.ring_count; ++k) inside ^= lies_in(city.ring(facet, k), p);
+    for (std::uint32_t k = 0; k < facet.ring_count; ++k) inside = inside != lies_in(city.ring(facet, k), p);
     return inside;
   });
 }

@@ -13,8 +13,9 @@ import shutil
 import tempfile
 from types import TracebackType
 
-# docs/package_format.md
+# What a package consists of: docs/package_format.md
 MANIFEST, BLOCKS = "manifest.json", "blocks"
+PARTS = (MANIFEST, BLOCKS, "crowns.bin", "far_terrain.bin", "sources.bin")
 
 
 class OutputRefused(Exception):
@@ -63,7 +64,7 @@ def require_room_for_package(folder: pathlib.Path, overwrite: bool) -> None:
         return
     if not folder.is_dir():
         raise OutputRefused(f"{folder} is a file: choose another name for the package.")
-    strangers = sorted(path.name for path in folder.iterdir() if path.name not in (MANIFEST, BLOCKS))
+    strangers = sorted(path.name for path in folder.iterdir() if path.name not in PARTS)
     if strangers:
         raise OutputRefused(f"{folder} holds {strangers[0]}, which is not part of a package: choose another folder.")
     if not overwrite and any(folder.iterdir()):
