@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "city/city_model.hpp"
 
@@ -28,14 +30,57 @@ bool zero_stands_in(const std::vector<std::optional<float>>& heights_m, HeightsO
   return has_zero && lowest_other_m >= least_gap_m && lowest_other_m <= highest_elevation_m;
 }
 
+/// The least number of all and the next one.
+struct Lowest {
+  float height_m = std::numeric_limits<float>::infinity(), next_m = std::numeric_limits<float>::infinity();
+  std::size_t pixels = 0;
+
+  void add(float other_m) {
+    if (other_m == height_m) {
+      ++pixels;
+    } else if (other_m < height_m) {
+      next_m = std::exchange(height_m, other_m);
+      pixels = 1;
+    } else {
+      next_m = std::min(next_m, other_m);
+    }
+  }
+  /// Whether it is apart from all others, which reach up to `highest_m`.
+  [[nodiscard]] bool is_apart(float highest_m, float least_gap_m, std::size_t of_pixels) const {
+    constexpr std::size_t fewest = 16, one_of = 1000;
+    const float gap_m = next_m - height_m, range_m = highest_m - next_m;
+    return pixels >= std::max(fewest, of_pixels / one_of) && gap_m >= std::max(least_gap_m, range_m);
+  }
+};
+
+/// The number of rule (3) of take_out_stand_ins.
+std::optional<float> number_apart(const std::vector<std::optional<float>>& heights_m, HeightsOf of) {
+  constexpr std::size_t enough = 16;
+  Lowest lowest, highest;  // that of heights that count downwards
+  std::set<float> different;
+  for (const auto& height_m : heights_m) {
+    if (!height_m || !may_be_elevation(*height_m)) continue;
+    lowest.add(*height_m);
+    highest.add(-*height_m);
+    if (different.size() <= enough) different.insert(*height_m);
+  }
+  if (different.size() <= enough) return std::nullopt;
+  const float least_gap_m = of == HeightsOf::ground ? 50.0F : 100.0F;
+  if (lowest.is_apart(-highest.height_m, least_gap_m, heights_m.size())) return lowest.height_m;
+  if (of == HeightsOf::ground && highest.is_apart(-lowest.height_m, least_gap_m, heights_m.size())) return -highest.height_m;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<StandIn> take_out_stand_ins(std::vector<std::optional<float>>& heights_m, HeightsOf of) {
   const bool without_zero = zero_stands_in(heights_m, of);
+  const auto apart_m = number_apart(heights_m, of);
   std::map<float, StandIn> by_height;
   for (std::size_t n = 0; n < heights_m.size(); ++n) {
     auto& height_m = heights_m[n];
-    if (!height_m || (may_be_elevation(*height_m) && !(without_zero && may_stand_in(*height_m)))) continue;
+    if (!height_m) continue;
+    if (may_be_elevation(*height_m) && !(without_zero && may_stand_in(*height_m)) && height_m != apart_m) continue;
     ++by_height.try_emplace(*height_m, StandIn{*height_m, 0, n}).first->second.pixels;
     height_m.reset();
   }

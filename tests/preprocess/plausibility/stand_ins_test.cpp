@@ -51,6 +51,38 @@ TEST(StandIns, AreNoZerosOfASeaOrOfARasterThatCountsFromItsOwnGround) {
   EXPECT_EQ(taken(0.0F, {25.0F, 40.0F}, HeightsOf::surfaces), 0u) << "roofs above a ground at 0";
 }
 
+/// A ground, or a town, between 500 and 560 m, and `number` in one of 100 pixels.
+Heights heights_with(float number, std::size_t pixels = 40) {
+  Heights heights_m;
+  for (std::size_t n = 0; n < 100 * pixels; ++n) heights_m.emplace_back(n % 100 == 7 ? number : 500.0F + 0.6F * (n % 101));
+  return heights_m;
+}
+
+TEST(StandIns, AreNumbersApartFromAllOthers) {
+  for (const float number : {-100.0F, 1.0F, 255.0F, 8888.0F}) {
+    Heights heights_m = heights_with(number);
+    EXPECT_THAT(take_out_stand_ins(heights_m, HeightsOf::ground), ElementsAre(testing::FieldsAre(number, 40U, 7U)));
+  }
+  Heights surfaces_m = heights_with(-100.0F);
+  EXPECT_EQ(take_out_stand_ins(surfaces_m, HeightsOf::surfaces).size(), 1U);
+}
+
+TEST(StandIns, AreNoLakesTowersAndSinglePixels) {
+  Heights lake_m = heights_with(460.0F);
+  EXPECT_TRUE(take_out_stand_ins(lake_m, HeightsOf::ground).empty()) << "40 m below the town";
+  Heights shore_m = heights_with(-100.0F);
+  shore_m.emplace_back(200.0F);
+  EXPECT_TRUE(take_out_stand_ins(shore_m, HeightsOf::ground).empty()) << "a slope leads down";
+  Heights tower_m = heights_with(800.0F);
+  EXPECT_TRUE(take_out_stand_ins(tower_m, HeightsOf::surfaces).empty());
+  Heights pit_m = heights_with(-100.0F, 15);
+  EXPECT_TRUE(take_out_stand_ins(pit_m, HeightsOf::ground).empty());
+  Heights levels_m(100, 10.0F);
+  levels_m.resize(200, 300.0F);
+  levels_m.resize(300, 310.0F);
+  EXPECT_TRUE(take_out_stand_ins(levels_m, HeightsOf::surfaces).empty()) << "a model of a few levels";
+}
+
 TEST(StandIns, ComeMostFrequentFirstAndLeaveTheOthersAsTheyAre) {
   Heights heights_m{100.0F, -9999.0F, std::nullopt, -32768.0F, -32768.0F, 101.5F};
   const std::vector<StandIn> found = take_out_stand_ins(heights_m, HeightsOf::ground);
