@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plausibility/ground_at_buildings.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -45,12 +46,7 @@ double at_share(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(n)];
 }
 
-std::string tenths_of_metres(double length_m) {
-  std::ostringstream text;
-  text.precision(1);
-  text << std::fixed << length_m << " m";
-  return std::move(text).str();
-}
+std::string tenths_of_metres(double length_m) { return fmt::format("{:.1f} m", length_m); }
 
 /// The roofs of a file above the ground.
 struct RoofsOfFile {
@@ -87,7 +83,7 @@ void require_ground_without_roofs(const LocatedCity& located, const SurveyedGrou
 }
 
 void report_roofs(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
-  constexpr double too_high_m = 30.0;
+  constexpr double too_high_m = 30.0, too_many_below = 0.1;
   std::vector<RoofsOfFile> files(std::max<std::size_t>(located.sources.size(), 1));
   const CityModel& city = located.city;
   city.for_each_building([&](std::size_t, const Building& b) {
@@ -102,9 +98,11 @@ void report_roofs(const LocatedCity& located, const SurveyedGround& ground, Repo
     const std::string end = " the ground, typically " + tenths_of_metres(std::abs(median_m)) +
                             ": are both heights above the same datum, in the same unit? --terrain-offset shifts the terrain";
     if (median_m <= 0.0) throw InputError(source + ": the roofs of most buildings are below" + end + ".");
-    if (at_share(above_ground_m, 0.05) < too_high_m) continue;
+    const bool are_too_low = at_share(above_ground_m, too_many_below) <= 0.0;
+    if (!are_too_low && at_share(above_ground_m, 0.05) < too_high_m) continue;
     const Point2d origin_m = located.georeference.origin_m;
-    report.add({ProblemCode::another_datum, source, "the whole file", "all roofs are 30 m and more above" + end,
+    report.add({ProblemCode::another_datum, source, "the whole file",
+                (are_too_low ? "a tenth of the roofs and more are below" : "all roofs are 30 m and more above") + end,
                 place + Point3d{origin_m.x, origin_m.y, 0.0}});
   }
 }

@@ -15,7 +15,7 @@ void require_ground_without_roofs(const LocatedCity& located, const SurveyedGrou
 /// Compares roofs whose elevations are known, but not how far down the buildings reach, with the ground. Of at least eight
 /// buildings of a file:
 ///   (1) throws InputError when half of the roofs are below the ground
-///   (2) another_datum when 19 of 20 are 30 m and more above it: a town has low houses, too
+///   (2) another_datum when a tenth of them are; or when 19 of 20 are 30 m and more above it: a town has low houses, too
 void report_roofs(const LocatedCity& located, const SurveyedGround& ground, Report& report);
 
 }  // namespace farlod::plausibility

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "farlod/error.hpp"
@@ -26,12 +27,14 @@ bool is_in_a_building(Point2d p) {
   return p.x - 30.0 * std::floor(p.x / 30.0) < 12.0 && p.y - 30.0 * std::floor(p.y / 30.0) < 12.0;
 }
 
-/// Buildings in rows of four, of which only the roofs are drawn, at this height above 500 m.
-LocatedCity town(int count, double height_m, HeightReference reference = HeightReference::elevation) {
+/// Buildings in rows of four, of which only the roofs are drawn, at this height above 500 m; each eighth at another one.
+LocatedCity town(int count, double height_m, HeightReference reference = HeightReference::elevation,
+                 std::optional<double> height_of_eighths_m = {}) {
   LocatedCity located;
   located.sources = {"town.gml"};
   for (int n = 0; n < count; ++n) {
-    const double x = 30.0 * (n % 4), y = 30.0 * (n / 4), z = 500.0 + height_m;
+    const double x = 30.0 * (n % 4), y = 30.0 * (n / 4),
+                 z = 500.0 + (n % 8 == 3 ? height_of_eighths_m.value_or(height_m) : height_m);
     located.city.begin_building("house", reference);
     located.city.begin_facet(SurfaceKind::roof, 0);
     located.city.add_ring(std::array<Point3d, 4>{Point3d{x, y, z}, {x + 12.0, y, z}, {x + 12.0, y + 12.0, z}, {x, y + 12.0, z}});
@@ -83,6 +86,17 @@ TEST(RoofsWithoutBases, AreToldFarAboveTheGround) {
 TEST(RoofsWithoutBases, AreRefusedBelowTheGround) {
   EXPECT_THAT(refusal_of<InputError>([] { (void)told(8, 12.0, 545.6); }),
               HasSubstr("town.gml: the roofs of most buildings are below the ground, typically 33.6 m"));
+}
+
+TEST(RoofsWithoutBases, AreToldWhereATenthIsBelowTheGround) {
+  const auto told_with_eighths = [](double height_m, int count) {
+    Report report;
+    report_roofs(town(count, 9.0, HeightReference::down_to_ground, height_m), raster([](Point2d) { return 500.0; }), report);
+    return report.problems().empty() ? "" : report.problems().front().detail;
+  };
+  EXPECT_THAT(told_with_eighths(-1.0, 16), HasSubstr("a tenth of the roofs and more are below the ground, typically 9.0 m"));
+  EXPECT_THAT(told_with_eighths(2.2, 16), IsEmpty()) << "sheds";
+  EXPECT_THAT(told_with_eighths(-1.0, 11), IsEmpty()) << "one of eleven";
 }
 
 }  // namespace
