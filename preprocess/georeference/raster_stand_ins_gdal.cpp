@@ -5,10 +5,12 @@
 #include <gdal_priv.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "city/city_model.hpp"
 #include "gdal/cleared_raster_gdal.hpp"
@@ -31,36 +33,78 @@ void report_stand_in(const std::string& file, const Crs& own, const StandInOfFil
 
 namespace {
 
-/// Every n-th pixel of a row.
-bool read_row(GDALRasterBand& band, int row, void* to, int columns, GDALDataType type) {
-  return band.RasterIO(GF_Read, 0, row, band.GetXSize(), 1, to, columns, 1, type, 0, 0, nullptr) == CE_None;
+/// Pixels along a side of a raster, in runs that lie in one block each where blocks are small beside the raster: all blocks of a
+/// large one would take as long as reading it.
+std::vector<std::vector<int>> sampled_runs(int length, int block) {
+  constexpr int runs = 16, of_run = 32;
+  std::vector<std::vector<int>> all;
+  if (length <= runs * of_run) {
+    std::iota(all.emplace_back(static_cast<std::size_t>(length)).begin(), all.back().end(), 0);
+    return all;
+  }
+  const double apart = static_cast<double>(length) / runs;
+  const bool is_in_blocks = block >= of_run && block < apart;
+  for (int n = 0; n < runs; ++n) {
+    const int middle = static_cast<int>((n + 0.5) * apart);
+    const double first = is_in_blocks ? middle - middle % block : n * apart;
+    const double end = is_in_blocks ? std::min<double>(first + block, length) : first + apart;
+    std::vector<int>& run = all.emplace_back();
+    for (int k = 0; k < of_run; ++k) run.push_back(static_cast<int>(first + (k + 0.5) * (end - first) / of_run));
+  }
+  return all;
+}
+
+/// Samples of the first band, with their pixels.
+struct RasterSamples {
+  std::vector<double> numbers;
+  std::vector<bool> have_data;
+  std::vector<Point2d> pixels;  ///< their middles
+
+  /// Returns false where the raster cannot be read.
+  bool add_run(GDALRasterBand& band, const std::vector<int>& columns, int row) {
+    const int first = columns.front(), count = columns.back() - first + 1;
+    std::vector<double> values(static_cast<std::size_t>(count));
+    std::vector<unsigned char> mask(values.size());
+    const auto read = [&](GDALRasterBand& from, void* to, GDALDataType type) {
+      return from.RasterIO(GF_Read, first, row, count, 1, to, count, 1, type, 0, 0, nullptr) == CE_None;
+    };
+    if (!read(band, values.data(), GDT_Float64) || !read(*band.GetMaskBand(), mask.data(), GDT_Byte)) return false;
+    for (const int column : columns) {
+      const auto at = static_cast<std::size_t>(column - first);
+      numbers.push_back(values[at]);
+      have_data.push_back(mask[at] != 0);
+      pixels.push_back({column + 0.5, row + 0.5});
+    }
+    return true;
+  }
+};
+
+/// Empty where it cannot be read.
+RasterSamples samples_of(GDALRasterBand& band) {
+  RasterSamples samples;
+  int block_columns = 0, block_rows = 0;
+  band.GetBlockSize(&block_columns, &block_rows);
+  const auto columns = sampled_runs(band.GetXSize(), block_columns);
+  for (const std::vector<int>& rows : sampled_runs(band.GetYSize(), block_rows))
+    for (const std::vector<int>& run : columns) {
+      for (const int row : rows)
+        if (!samples.add_run(band, run, row)) return {};
+      forget_old_blocks();
+    }
+  return samples;
 }
 
 }  // namespace
 
 std::vector<StandInOfFile> sampled_stand_ins(const PlacedRaster& raster, plausibility::HeightsOf of) {
-  constexpr int most = 512;
-  GDALRasterBand& band = *raster.file->GetRasterBand(1);
-  const int columns = std::min(band.GetXSize(), most), rows = std::min(band.GetYSize(), most);
+  const RasterSamples samples = samples_of(*raster.file->GetRasterBand(1));
   std::vector<std::optional<float>> heights_m;
-  std::vector<double> numbers(static_cast<std::size_t>(columns)), all;
-  std::vector<unsigned char> mask(numbers.size());
-  for (int n = 0; n < rows; ++n) {
-    const int row = static_cast<int>((2 * std::int64_t{n} + 1) * band.GetYSize() / (2 * std::int64_t{rows}));
-    if (!read_row(band, row, numbers.data(), columns, GDT_Float64) ||
-        !read_row(*band.GetMaskBand(), row, mask.data(), columns, GDT_Byte))
-      return {};
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-      heights_m.push_back(mask[k] == 0 ? std::nullopt : raster.height_m(numbers[k]));
-    all.insert(all.end(), numbers.begin(), numbers.end());
-    forget_old_blocks();
-  }
+  for (std::size_t n = 0; n < samples.numbers.size(); ++n)
+    heights_m.push_back(samples.have_data[n] ? raster.height_m(samples.numbers[n]) : std::nullopt);
   std::vector<StandInOfFile> found;
   for (const plausibility::StandIn& stand_in : plausibility::take_out_stand_ins(heights_m, of)) {
-    const std::size_t row = stand_in.first / static_cast<std::size_t>(columns),
-                      column = stand_in.first % static_cast<std::size_t>(columns);
-    found.push_back({all[stand_in.first], raster.frame().place((static_cast<double>(column) + 0.5) * band.GetXSize() / columns,
-                                                               (static_cast<double>(row) + 0.5) * band.GetYSize() / rows)});
+    const Point2d pixel = samples.pixels[stand_in.first];
+    found.push_back({samples.numbers[stand_in.first], raster.frame().place(pixel.x, pixel.y)});
   }
   return found;
 }
