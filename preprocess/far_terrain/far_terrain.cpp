@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "far_terrain/far_terrain.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -290,19 +292,12 @@ class FarTerrainMaker {
   std::vector<Triangle> triangles_;
 };
 
-std::string metres(double length_m) {
-  std::ostringstream text;
-  text.setf(std::ios::fixed);
-  text.precision(1);
-  text << std::abs(length_m) << " m " << (length_m > 0.0 ? "above" : "below");
-  return std::move(text).str();
-}
-
 /// Throws InputError where it cannot be true, and reports what it hardly can be. Of the city's own ground all was told when that
 /// was read.
 void judge(const FarTerrainSource& source, const FarTerrainMaker::Found& found, const CityGround& city, Report& report) {
   if (source.is_ground) return;
   const std::string file = source.file.path.string();
+  if (!found.is_around && !source.file.is_named) return;
   if (!found.is_around) throw InputError(file + ": lies more than 200 km away from the city: check its CRS.");
   const Point2d origin = city.georeference.origin_m;
   const Point3d middle{origin.x, origin.y, 0.0};
@@ -314,9 +309,10 @@ void judge(const FarTerrainSource& source, const FarTerrainMaker::Found& found, 
   }
   const auto step = plausibility::border_step(found.border_steps_m);
   if (!step) return;
-  const std::string what = "where the grid ends, it is " + metres(step->median_m) +
-                           " the ground of the city: their heights count from different levels, or the city has none; give the "
-                           "ground with --terrain, or bring both into one vertical datum";
+  const std::string what =
+      fmt::format("where the grid ends, it is {:.1f} m {}", std::abs(step->median_m), step->median_m > 0.0 ? "above" : "below") +
+      " the ground of the city: their heights count from different levels, or the city has none; give the "
+      "ground with --terrain, or bring both into one vertical datum";
   if (step->is_everywhere) throw InputError(file + ": " + what + ".");
   report.add({ProblemCode::another_datum, file, "the whole file", what, middle});
 }
@@ -350,10 +346,18 @@ std::optional<FarTerrain> far_terrain_within(const RastersAround& around, const 
                                              const FarTerrainSettings& settings, Report& report, const std::stop_token& stop) {
   FarTerrainMaker maker(city, settings, stop);
   Report found;
+  const FarTerrainSource* beyond = nullptr;
+  bool is_any_around = false;
   for (std::size_t n = 0; n < around.rasters.size(); ++n) {
     if (!maker.add(around.rasters[n], around.sources[n].offset_m, std::span(around.coverages).subspan(0, n))) return std::nullopt;
     judge(around.sources[n], maker.found(), city, found);
+    if (around.sources[n].is_ground) continue;
+    beyond = &around.sources[n];
+    is_any_around = is_any_around || maker.found().is_around;
   }
+  if (beyond != nullptr && !is_any_around)
+    throw InputError(beyond->file.path.string() +
+                     " and all others of its folder lie more than 200 km away from the city: check their CRS.");
   for (const Problem& problem : found.problems()) report.add(problem);
   return maker.take();
 }

@@ -74,7 +74,8 @@ class CityReading {
     const align::GridSettings grid = choose_settings();
     read_.ground = lay_grid(grid, report_, run_stage_);
     // The grid of a terrain alone covers all of it
-    if (!read_.located.city.buildings().empty()) read_.terrain_files = std::move(files_.terrain);
+    if (!read_.located.city.buildings().empty()) read_.terrain_files = std::move(files_.terrain.files);
+    read_.far_terrain_files = std::move(files_.far_terrain.files);
     if (const auto& terrain = read_.ground.terrain)
       read_.notes.insert(read_.notes.end(), terrain->notes.begin(), terrain->notes.end());
     return std::move(read_);
@@ -103,11 +104,11 @@ class CityReading {
   void locate(std::vector<SourceCity> sources) {
     georeference::GeoreferenceSettings settings = settings_.georeference;
     if (sources.empty()) {
-      read_.located = {{}, georeference::georeference_of_terrain(files_.terrain, settings)};
+      read_.located = {{}, georeference::georeference_of_terrain(files_.terrain.files, settings)};
       take_turned_surface();
       return;
     }
-    settings.crs_is_for_another |= std::any_of(files_.terrain.begin(), files_.terrain.end(), [](const auto& tile) {
+    settings.crs_is_for_another |= std::any_of(files_.terrain.files.begin(), files_.terrain.files.end(), [](const auto& tile) {
       return georeference::read_terrain_extent(tile).crs_wkt.empty();
     });
     read_.located = georeference::georeference(std::move(sources), settings, report_);
@@ -116,16 +117,16 @@ class CityReading {
 
   /// Its points are read like those of a relief.
   void take_turned_surface() {
-    if (files_.terrain.size() != 1) return;
-    auto surface = georeference::read_turned_surface(files_.terrain.front(), settings_.georeference.crs,
+    if (files_.terrain.files.size() != 1) return;
+    auto surface = georeference::read_turned_surface(files_.terrain.files.front(), settings_.georeference.crs,
                                                      read_.located.georeference, report_);
     if (!surface) return;
     if (surface->points_city.empty())
-      throw InputError(files_.terrain.front().path.string() + " has no heights: give a surface model that has some.");
+      throw InputError(files_.terrain.files.front().path.string() + " has no heights: give a surface model that has some.");
     for (Point3d& p : surface->points_city) p.z += settings_.terrain_offset_m;
     read_.located.relief_points = std::move(surface->points_city);
     read_.notes.push_back(std::move(surface->note));
-    files_.terrain.clear();
+    files_.terrain.files.clear();
   }
 
   void require_usable() {
@@ -133,7 +134,7 @@ class CityReading {
     if (read_.located.city.buildings().empty() && read_.located.relief_points.empty())
       throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
     resolve_relief();
-    if (files_.terrain.empty() && read_.located.relief_points.empty()) require_ground_below_roofs(read_.located.city);
+    if (files_.terrain.files.empty() && read_.located.relief_points.empty()) require_ground_below_roofs(read_.located.city);
   }
 
   /// Drops a relief that is not used: a raster replaces it, or it lies elsewhere than the city. Counts its points as skipped.
@@ -142,8 +143,8 @@ class CityReading {
     if (located.relief_points.empty()) return;
     const bool is_elsewhere = !located.city.buildings().empty() &&
                               !boxes_meet(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
-    if (files_.terrain.empty() && !is_elsewhere) return;
-    const char* reason = !files_.terrain.empty() ? " (the raster stands in for them)" : " (none lies where the city is)";
+    if (files_.terrain.files.empty() && !is_elsewhere) return;
+    const char* reason = !files_.terrain.files.empty() ? " (the raster stands in for them)" : " (none lies where the city is)";
     read_.skipped[std::string("points of reliefs") + reason] += located.relief_points.size();
     located.relief_points.clear();
   }
@@ -177,7 +178,7 @@ class CityReading {
   [[nodiscard]] GridOnGround lay_grid(const align::GridSettings& settings, Report& report, const RunStage& run_stage) const {
     std::optional<TerrainRaster> terrain;
     const auto read = [&](const std::optional<Box2d>& wanted_city) {
-      if (!files_.terrain.empty()) run_stage("terrain", [&] { terrain = read_ground(wanted_city, report); });
+      if (!files_.terrain.files.empty()) run_stage("terrain", [&] { terrain = read_ground(wanted_city, report); });
     };
     if (read_.located.city.buildings().empty()) {
       read(std::nullopt);
@@ -192,10 +193,10 @@ class CityReading {
   }
 
   [[nodiscard]] TerrainRaster read_ground(const std::optional<Box2d>& wanted_city, Report& report) const {
-    TerrainRaster terrain = georeference::read_terrain(std::span(files_.terrain), settings_.georeference.crs,
+    TerrainRaster terrain = georeference::read_terrain(std::span(files_.terrain.files), settings_.georeference.crs,
                                                        read_.located.georeference, wanted_city, report);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
-      throw InputError(files_.terrain.front().path.string() +
+      throw InputError(files_.terrain.files.front().path.string() +
                        " has no heights where the city lies: give a terrain that covers it.");
     for (auto& height_m : terrain.height_m)
       if (height_m) *height_m += static_cast<float>(settings_.terrain_offset_m);
@@ -233,26 +234,27 @@ std::vector<std::filesystem::path> rasters_in(const std::filesystem::path& folde
   return rasters;
 }
 
-CityFiles tiles_of_terrain(const std::vector<std::filesystem::path>& given) {
-  CityFiles city;
+/// The rasters of folders stand for these.
+TerrainTiles tiles_of(const std::vector<std::filesystem::path>& given) {
+  TerrainTiles tiles;
   std::error_code unread;
   for (const std::filesystem::path& path : given) {
     const bool is_folder = std::filesystem::is_directory(path, unread);
     for (const std::filesystem::path& tile : is_folder ? rasters_in(path) : std::vector{path}) {
-      city.terrain.emplace_back(tile, !is_folder);
-      city.terrain_on_disk.push_back(tile);
+      tiles.files.emplace_back(tile, !is_folder);
+      tiles.on_disk.push_back(tile);
     }
   }
-  return city;
+  return tiles;
 }
 
 }  // namespace
 
 CityFiles find_city_files(const StageSettings& settings, Report& report) {
   const std::optional<std::string>& layer = settings.ingest.footprints.layer;
-  CityFiles city = tiles_of_terrain(settings.terrain);
+  CityFiles city{.terrain = tiles_of(settings.terrain), .far_terrain = tiles_of(settings.far_terrains)};
   const auto name_layer = [&] {
-    for (georeference::TerrainFile& tile : city.terrain) tile.layer = layer;
+    for (georeference::TerrainFile& tile : city.terrain.files) tile.layer = layer;
   };
   name_layer();
   if (settings.inputs.empty()) return city;
@@ -260,8 +262,8 @@ CityFiles find_city_files(const StageSettings& settings, Report& report) {
   if (!found.surface_models.empty()) {
     require_one_raster(found.surface_models, settings.terrain);
     const ingest::InputFile& model = found.surface_models.front();
-    city.terrain.emplace_back(model.path, model.is_named);
-    city.terrain_on_disk.push_back(model.on_disk);
+    city.terrain.files.emplace_back(model.path, model.is_named);
+    city.terrain.on_disk.push_back(model.on_disk);
     name_layer();
   }
   for (const ingest::InputFile& file : found.files) city.on_disk.push_back(file.on_disk);

@@ -24,12 +24,17 @@ namespace farlod::pipeline {
 /// Runs a stage of that name, and measures how long it takes.
 using RunStage = std::function<void(const std::string& stage, const std::function<void()>& work)>;
 
+/// Rasters of heights.
+struct TerrainTiles {
+  std::vector<georeference::TerrainFile> files;  ///< as GDAL opens them
+  std::vector<std::filesystem::path> on_disk;    ///< the files, or the archives that hold them
+};
+
 /// The files that the inputs of the user lead to, not read yet.
 struct CityFiles {
   std::vector<ingest::InputFile> files;
-  std::vector<std::filesystem::path> on_disk;          ///< an archive is one input, however many of its files are read
-  std::vector<georeference::TerrainFile> terrain;      ///< its tiles, as GDAL opens them
-  std::vector<std::filesystem::path> terrain_on_disk;  ///< the files, or the archives that hold them
+  std::vector<std::filesystem::path> on_disk;  ///< an archive is one input, however many of its files are read
+  TerrainTiles terrain, far_terrain;
   SkippedFeatures skipped;
 };
 
@@ -47,7 +52,8 @@ struct GridOnGround {
 struct ReadCity {
   LocatedCity located;
   GridOnGround ground;
-  std::vector<georeference::TerrainFile> terrain_files;  ///< of which the ground is a part, and not all
+  std::vector<georeference::TerrainFile> terrain_files;      ///< of which the ground is a part, and not all
+  std::vector<georeference::TerrainFile> far_terrain_files;  ///< beyond what these cover
   FarMapSettings far_map;
   bool is_chosen = false;          ///< cells, neighborhood and tolerance were to be chosen
   std::optional<GridChoice> best;  ///< and this is the choice; none where nothing keeps the error

@@ -209,12 +209,13 @@ class Packing {
 
   /// The ground beyond the grid; none where no raster may have it.
   FarTerrain far_terrain_around(const Georeference& place, const std::vector<georeference::TerrainFile>& terrain,
-                                const tiles::Ground& ground, double height_origin_m) {
+                                const std::vector<georeference::TerrainFile>& beyond, const tiles::Ground& ground,
+                                double height_origin_m) {
     std::vector<far_terrain::FarTerrainSource> sources;
     // The last tile of the terrain lies on top
     for (auto tile = terrain.rbegin(); tile != terrain.rend(); ++tile)
       sources.push_back({*tile, settings_.terrain_offset_m, true});
-    for (const std::filesystem::path& file : settings_.far_terrains) sources.push_back({file});
+    for (const georeference::TerrainFile& file : beyond) sources.push_back({file});
     if (sources.empty()) return {};
     const far_terrain::CityGround city{place, record_.result.manifest.grid, height_origin_m, ground.lowest_m().value_or(0.0),
                                        [&ground](Point2d p) { return ground.height_at(p); }};
@@ -237,7 +238,7 @@ class Packing {
     const Georeference place = city.located.georeference;
     FarTerrain far_terrain;
     const tiles::OnGround on_ground = [&](const tiles::Ground& ground, double height_origin_m) {
-      far_terrain = far_terrain_around(place, city.terrain_files, ground, height_origin_m);
+      far_terrain = far_terrain_around(place, city.terrain_files, city.far_terrain_files, ground, height_origin_m);
       if (!trees.any()) return;
       tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
       crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);

@@ -130,6 +130,7 @@ void add_tree_settings(const TreeSettings& trees, Values& values) {
   add_if("tree-height-field", trees.height_field);
   add_if("crown-field", trees.crown_field);
   add_if("trunk-field", trees.trunk_field);
+  add_if("trees-layer", trees.layer);
   if (trees.canopy) values.emplace_back("canopy", trees.canopy->filename().string());
   if (trees.trunks) values.emplace_back("trunk", trees.trunks->filename().string());
   if (trees.canopy) values.emplace_back("canopy-absolute", trees.heights == CanopyHeights::elevations ? "yes" : "no");
@@ -173,8 +174,8 @@ void add_grid_settings(const StageSettings& s, Values& values) {
 PackageOrigin origin_of(const StageSettings& settings, const CityFiles& files, const std::optional<PackageOrigin>& earlier) {
   Inputs inputs(earlier);
   for (const fs::path& file : files.on_disk) inputs.add(file);
-  for (const fs::path& file : files.terrain_on_disk) inputs.add(file);
-  for (const fs::path& file : settings.far_terrains) inputs.add(file);
+  for (const fs::path& file : files.terrain.on_disk) inputs.add(file);
+  for (const fs::path& file : files.far_terrain.on_disk) inputs.add(file);
   for (const fs::path& file : settings.trees.files) inputs.add(file);
   if (settings.trees.canopy) inputs.add(*settings.trees.canopy);
   if (settings.trees.trunks) inputs.add(*settings.trees.trunks);

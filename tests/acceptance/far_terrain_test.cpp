@@ -157,6 +157,21 @@ TEST_F(FarTerrain, WhereOneHasNothingButZerosTheNextOneShows) {
   }
 }
 
+TEST_F(FarTerrain, MayBeAFolderOfTiles) {
+  folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }));
+  std::filesystem::create_directory(folder.path("tiles"));
+  folder.write("tiles/far.asc", plateau(2000.0, 600.0, 50.0, 3000.0));
+  folder.write("tiles/elsewhere.asc", ascii_grid([](Point2d) { return 100.0; }, 50.0, 1000.0, town_middle - Point2d{0.0, 300e3}));
+  pack("--terrain terrain.asc --far-terrain tiles/far.asc");
+  const std::string of_a_file = folder.text_of("a.farlod/far_terrain.bin");
+  pack("--terrain terrain.asc --far-terrain tiles --force");
+  EXPECT_EQ(folder.text_of("a.farlod/far_terrain.bin"), of_a_file);
+  std::filesystem::remove(folder.path("tiles/far.asc"));
+  const auto outcome = folder.run("farlod-pack slab.geojson -o b.farlod --terrain terrain.asc --far-terrain tiles");
+  EXPECT_NE(outcome.err.find("200 km away from the city"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.exit_code, 3);
+}
+
 TEST_F(FarTerrain, OneThatCannotBeReadIsRefused) {
   EXPECT_EQ(folder.run("farlod-pack slab.geojson -o a.farlod --far-terrain absent.tif").exit_code, 3);
 }

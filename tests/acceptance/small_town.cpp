@@ -72,11 +72,11 @@ std::string footprints_geojson(const std::vector<Block>& blocks) {
   return city.dump(1);
 }
 
-std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m, double half_m) {
+std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m, double half_m, Point2d middle) {
   const int nodes = 1 + static_cast<int>(std::lround(2.0 * half_m / step_m));
   std::ostringstream text;
   text.precision(12);
-  const Point2d corner = town_middle - (half_m + 0.5 * step_m) * Point2d{1.0, 1.0};
+  const Point2d corner = middle - (half_m + 0.5 * step_m) * Point2d{1.0, 1.0};
   text << "ncols " << nodes << "\nnrows " << nodes << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y << "\ncellsize "
        << step_m << "\nNODATA_value -9999\n";
   for (int row = 0; row < nodes; ++row) {

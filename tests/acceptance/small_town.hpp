@@ -39,7 +39,8 @@ inline constexpr double town_pitch_m = 60.0, town_edge_m = 36.0, town_half_m = 1
 
 /// An ESRI ASCII grid around the town's middle, with pixel centres at whole steps from it. `height_m` gets metres from the
 /// middle; -9999 is no data.
-[[nodiscard]] std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m = 10.0, double half_m = 500.0);
+[[nodiscard]] std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m = 10.0, double half_m = 500.0,
+                                     Point2d middle = town_middle);
 
 class WorkFolder;
 /// Writes `town.geojson`, and `a.farlod` as `farlod-pack town.geojson -o a.farlod` with these settings makes it. A town of this
