@@ -85,13 +85,30 @@ void require_own_overviews(GDALDataset& dataset, const std::filesystem::path& fi
                    "\": remove OVERVIEW_FILE from its .aux.xml, or write it anew with gdal_translate.");
 }
 
+/// With which a vector file of a format is opened.
+CPLStringList vector_options(const std::string& format, const std::optional<std::string>& encoding) {
+  CPLStringList options;
+  if (format == "CSV") {
+    // Columns of WKT that GDAL does not look for by itself, such as that of Open Buildings
+    options.SetNameValue("GEOM_POSSIBLE_NAMES", "WKT,_WKT*,geometry,geom,the_geom,wkb_geometry");
+  } else if (format == "ESRI Shapefile") {
+    if (encoding) options.SetNameValue("ENCODING", encoding->c_str());
+  } else {
+    // For GML: GDAL must write nothing beside the file, and fetch no schema from an address in it
+    options.SetNameValue("WRITE_GFS", "NO");
+    options.SetNameValue("DOWNLOAD_SCHEMA", "NO");
+  }
+  return options;
+}
+
 }  // namespace
 
 bool is_known_within(GdalReach reach, const std::filesystem::path& file, unsigned int kinds) {
   return !format_of(file, kinds, allowed_formats(reach)).empty();
 }
 
-GDALDatasetUniquePtr open_within(GdalReach reach, const std::filesystem::path& file, unsigned int kinds) {
+GDALDatasetUniquePtr open_within(GdalReach reach, const std::filesystem::path& file, unsigned int kinds,
+                                 const std::optional<std::string>& encoding) {
   CPLStringList allowed = allowed_formats(reach);
   require_local_name(file.string(), file.string());
   const std::string format = format_of(file, kinds, allowed);
@@ -105,13 +122,8 @@ GDALDatasetUniquePtr open_within(GdalReach reach, const std::filesystem::path& f
                                                      : SourceKind::data;
     });
   if (reach == GdalReach::own_data && format == "MapInfo File") require_own_table(file);
-  // For GML: GDAL must write nothing beside the file, and fetch no schema from an address in it
-  constexpr std::array<const char*, 3> gml_options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
-  // For tables: columns of WKT that GDAL does not look for by itself, such as that of Open Buildings
-  constexpr std::array<const char*, 2> csv_options{"GEOM_POSSIBLE_NAMES=WKT,_WKT*,geometry,geom,the_geom,wkb_geometry", nullptr};
-  const char* const* vector_options = format == "CSV" ? csv_options.data() : gml_options.data();
-  const char* const* options = (kinds & GDAL_OF_VECTOR) != 0 ? vector_options : nullptr;
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), kinds | GDAL_OF_READONLY, allowed.List(), options));
+  CPLStringList options = (kinds & GDAL_OF_VECTOR) != 0 ? vector_options(format, encoding) : CPLStringList();
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), kinds | GDAL_OF_READONLY, allowed.List(), options.List()));
   if (dataset && (kinds & GDAL_OF_RASTER) != 0) require_own_overviews(*dataset, file);
   return dataset;
 }

@@ -5,6 +5,8 @@
 #include <gdal_priv.h>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 // Private to the wrappers of GDAL: it names its classes.
 
@@ -20,9 +22,10 @@ enum class GdalReach {
 };
 
 /// Opens a file to read it (`kinds`: GDAL_OF_RASTER or GDAL_OF_VECTOR). Nothing is written beside it, nor fetched from an address
-/// in it. Null where GDAL does not know what it is, or cannot read it. Throws InputError when it would read more than `reach`
-/// allows, and says what to do.
-[[nodiscard]] GDALDatasetUniquePtr open_within(GdalReach reach, const std::filesystem::path& file, unsigned int kinds);
+/// in it. Null where GDAL does not know what it is, or cannot read it. `encoding`: of the names and texts of a Shapefile,
+/// whatever that says itself. Throws InputError when it would read more than `reach` allows, and says what to do.
+[[nodiscard]] GDALDatasetUniquePtr open_within(GdalReach reach, const std::filesystem::path& file, unsigned int kinds,
+                                               const std::optional<std::string>& encoding = {});
 
 /// Whether a format that `reach` allows knows the file.
 [[nodiscard]] bool is_known_within(GdalReach reach, const std::filesystem::path& file, unsigned int kinds);

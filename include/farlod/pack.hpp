@@ -70,7 +70,7 @@ struct FootprintSettings {
   std::optional<double> default_height_m = {};    ///< 0.01 to 1,000: for footprints without any height
   std::vector<double> unknown_heights = {};       ///< numbers of the table that mean that a height is not known
   std::optional<std::string> layer = {};          ///< of a file of several, features or rasters: the one to read
-  std::optional<std::string> encoding = {};       ///< of the names and texts of a Shapefile, as iconv names it
+  std::optional<std::string> encoding = {};       ///< of the names and texts of Shapefiles, as iconv names it
 };
 
 /// What the heights of a canopy raster count from.
@@ -88,6 +88,8 @@ struct TreeSettings {
   std::optional<std::string> height_field = {};         ///< height of a tree
   std::optional<std::string> crown_field = {};          ///< diameter of its crown; an area where the name says so
   std::optional<std::string> trunk_field = {};          ///< height at which its crown begins
+  std::optional<std::string> layer = {};                ///< of a vector file of several: the one to read
+  std::optional<std::string> encoding = {};             ///< of the names and texts of Shapefiles, as iconv names it
   std::optional<std::filesystem::path> canopy = {};     ///< a raster of the tops of crowns; 0: none
   std::optional<std::filesystem::path> trunks = {};     ///< a raster of the heights at which crowns begin; needs `canopy`
   CanopyHeights heights = CanopyHeights::above_ground;  ///< of both rasters

@@ -5,13 +5,11 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
+#include "app/option_values.hpp"
 #include "console/option_list.hpp"
-#include "console/shard_text.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
@@ -53,27 +51,11 @@ struct RawOptions {
   std::vector<std::string> terrain, far_terrains;
   std::string height_field, base_field, storeys_field, roof_field, layer, encoding;
   std::vector<std::string> trees;
-  std::string tree_height_field, crown_field, trunk_field, canopy, trunk;
+  std::string tree_height_field, crown_field, trunk_field, trees_layer, canopy, trunk;
   bool canopy_absolute = false;
   std::string shard;
   bool force = false, strict = false;
 };
-
-double number_in(const std::string& text, const std::string& option, const std::string& remedy) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value))
-    throw CLI::ValidationError(option, "\"" + text + "\" is not a number: " + remedy);
-  return value;
-}
-
-Point3d parse_origin(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string& part : CLI::detail::split(text, ','))
-    numbers.push_back(number_in(part, "--origin", "give X,Y or X,Y,Z"));
-  if (numbers.size() != 2 && numbers.size() != 3) throw CLI::ValidationError("--origin", "give X,Y or X,Y,Z");
-  return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
-}
 
 void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("INPUT", raw.inputs,
@@ -98,7 +80,8 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--layer", raw.layer,
                  "Layer of a file of several (GeoPackage, File Geodatabase, netCDF) to read: features or a raster")
       ->group("Input");
-  app.add_option("--encoding", raw.encoding, "Of the texts of a Shapefile without .cpg, such as GBK or CP1252")->group("Input");
+  app.add_option("--encoding", raw.encoding, "Of the names and texts of Shapefiles without .cpg, such as GBK or CP1252")
+      ->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
       ->capture_default_str()
@@ -139,8 +122,10 @@ void add_terrain_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
                  "Metres added to the terrain, where its elevations count from another datum than the buildings")
       ->check(between(-1000.0, 1000.0))
       ->group("Input");
-  app.add_option("--far-terrain", raw.far_terrains,
-                 "Raster of elevations around the city, of any resolution: mountains hide the sky; may be given several times")
+  app.add_option(
+         "--far-terrain", raw.far_terrains,
+         "Raster of elevations around the city, of any resolution, or a folder of them: mountains hide the sky; may be given "
+         "several times")
       ->type_name(file_value)
       ->expected(1)
       ->take_all()
@@ -157,6 +142,7 @@ void add_tree_options(CLI::App& app, RawOptions& raw) {
       ->take_all()
       ->group("Trees");
   app.add_option("--tree-height-field", raw.tree_height_field, "Attribute with a tree's height, in metres")->group("Trees");
+  app.add_option("--trees-layer", raw.trees_layer, "Layer of a vector file of several, such as a GeoPackage")->group("Trees");
   app.add_option("--crown-field", raw.crown_field, "Attribute with the diameter of a tree's crown, in metres")->group("Trees");
   app.add_option("--trunk-field", raw.trunk_field, "Attribute with the height at which a tree's crown begins, in metres")
       ->group("Trees");
@@ -250,53 +236,6 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   add_run_options(app, pack_program().name, o.run);
 }
 
-void resolve_alignment(const std::string& text, PackSettings& s) {
-  if (text == "auto") {
-    s.align = AlignMode::automatic;
-  } else if (text == "none") {
-    s.align = AlignMode::none;
-  } else {
-    s.align = AlignMode::fixed;
-    const double bearing_deg = number_in(text, "--align", "give auto, none, or degrees clockwise from grid north");
-    if (std::abs(bearing_deg) > 360.0) throw CLI::ValidationError("--align", "\"" + text + "\" is more than a full turn");
-    s.fixed_bearing = Angle::degrees(bearing_deg);
-  }
-}
-
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
-}
-
-/// A text that begins with a number and a comma is meant as a rectangle; anything else is a file.
-FarMapArea area_in(const std::string& text) {
-  const std::string option = "--area";
-  if (text.empty()) throw CLI::ValidationError(option, "it is empty: give X0,Y0,X1,Y1, or the name of a file");
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos || !is_number(text.substr(0, comma))) return std::filesystem::path(text);
-  std::vector<double> n;
-  // split() drops what is empty after the last comma: with one more, that is the comma's own
-  for (const std::string& part : CLI::detail::split(text + ',', ',')) {
-    if (!is_number(part)) throw CLI::ValidationError(option, "\"" + text + "\" is not of the form X0,Y0,X1,Y1");
-    n.push_back(std::stod(part));
-  }
-  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
-    throw CLI::ValidationError(option, "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
-  constexpr double farthest_m = 1e8;  // no map is as large
-  for (const double x : n)
-    if (std::abs(x) > farthest_m) throw CLI::ValidationError(option, fmt::format("{:g} lies nowhere on Earth", x));
-  return Box2d{{n[0], n[1]}, {n[2], n[3]}};
-}
-
-Shard shard_in(const std::string& text) {
-  try {
-    return shard_from(text, environment_of_process);
-  } catch (const InvalidArgument& error) {
-    throw CLI::ValidationError("--shard", error.what());
-  }
-}
-
 void require_name(const std::string& name, const char* option) {
   if (name.empty()) throw CLI::ValidationError(option, "the name is empty: give a file");
 }
@@ -309,6 +248,8 @@ void resolve_trees(const RawOptions& raw, TreeSettings& trees) {
   if (!raw.tree_height_field.empty()) trees.height_field = raw.tree_height_field;
   if (!raw.crown_field.empty()) trees.crown_field = raw.crown_field;
   if (!raw.trunk_field.empty()) trees.trunk_field = raw.trunk_field;
+  if (!raw.trees_layer.empty()) trees.layer = raw.trees_layer;
+  if (!raw.encoding.empty()) trees.encoding = raw.encoding;
   if (!raw.canopy.empty()) trees.canopy = raw.canopy;
   if (!raw.trunk.empty()) trees.trunks = raw.trunk;
   trees.heights = raw.canopy_absolute ? CanopyHeights::elevations : CanopyHeights::above_ground;
@@ -321,14 +262,6 @@ void resolve_fields(const RawOptions& raw, FootprintSettings& footprints) {
   if (!raw.layer.empty()) footprints.layer = raw.layer;
   if (!raw.encoding.empty()) footprints.encoding = raw.encoding;
   if (!raw.roof_field.empty()) footprints.roof_field = raw.roof_field;
-}
-
-std::vector<std::string> names_in(const std::string& text) {
-  // As in area_in
-  std::vector<std::string> names = CLI::detail::split(text + ',', ',');
-  for (std::string& name : names)
-    if (CLI::detail::trim(name).empty()) throw CLI::ValidationError("--ground-names", "\"" + text + "\" has an empty name");
-  return names;
 }
 
 void resolve_inputs(const RawOptions& raw, PackSettings& s) {
@@ -354,12 +287,12 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   if (s.neighborhood && *s.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");
-  if (!raw.origin.empty()) s.obj_origin = parse_origin(raw.origin);
+  if (!raw.origin.empty()) s.obj_origin = origin_in(raw.origin);
   if (raw.ground_names) s.ground_names = names_in(*raw.ground_names);
   if (raw.up != "auto") s.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
   if (raw.lod != "best") s.lod = std::stoi(raw.lod);
   resolve_fields(raw, s.footprints);
-  resolve_alignment(raw.align, s);
+  set_alignment(raw.align, s);
   s.far_map = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
   if (s.max_error && s.far_map == FarMapKind::box)

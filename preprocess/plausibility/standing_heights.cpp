@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plausibility/standing_heights.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <span>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -179,12 +180,7 @@ std::optional<OffsetOfFile> offset_of(const FileStanding& file) {
   return all.buildings == 0 ? std::nullopt : std::optional(all);
 }
 
-std::string metres(double length_m) {
-  std::ostringstream text;
-  text.precision(1);
-  text << std::fixed << length_m;
-  return std::move(text).str();
-}
+std::string metres(double length_m) { return fmt::format("{:.1f}", length_m); }
 
 std::string detail_of(const OffsetOfFile& offset, std::size_t all, bool is_raster) {
   const double middle_m = 0.5 * (offset.least_m + offset.most_m);

@@ -52,14 +52,52 @@ std::string text_of(const OGRFeature& feature, const Field& field) {
   return definition.GetSubType() == OFSTFloat32 ? shortest(static_cast<float>(value)) : shortest(value);
 }
 
+OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::string& file) {
+  const LayerChoice choice{
+      .name = name, .option = "--points-layer", .wanted = "features", .may_hold = [](OGRLayer&) { return true; }};
+  if (dataset.GetLayerCount() == 0) throw PointsError(file + " has no layers: it holds no points");
+  if (name.empty() && dataset.GetLayerCount() == 1) return *dataset.GetLayer(0);
+  if (name.empty())
+    throw PointsError(file + " has several layers: choose one by --points-layer, of " + other_layers(dataset, nullptr, choice));
+  return *chosen_layer(dataset, file, choice);
+}
+
+/// A layer that is open, with the messages of GDAL since then.
+class OpenLayer {
+ public:
+  OpenLayer(const std::filesystem::path& path, const std::string& name) : file_(path.string()) {
+    if (!std::filesystem::exists(path)) throw PointsError(file_ + ": the file cannot be read; see that it exists");
+    dataset_ = open_vector_file(path);
+    if (!dataset_) throw PointsError(file_ + " cannot be read as a vector file (" + messages_.last() + ")");
+    layer_ = &layer_of(*dataset_, name, file_);
+    require_utf8_names(*layer_, file_, nullptr);
+  }
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] OGRLayer& layer() const { return *layer_; }
+  [[nodiscard]] std::string text_of(const OGRFeature& feature, const Field& field) const {
+    std::string text = farlod::text_of(feature, field);
+    require_utf8(text, *layer_, file_, nullptr);
+    return text;
+  }
+  void require_all_read() const {
+    if (messages_.any()) throw PointsError(file_ + " cannot be read to its end (" + messages_.last() + ")");
+  }
+
+ private:
+  std::string file_;
+  GdalErrors messages_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+};
+
 /// Reads one layer, feature by feature.
 class LayerReader {
  public:
-  LayerReader(const std::filesystem::path& path, OGRLayer& layer) : path_(path), layer_(layer), all_(fields_of(layer)) {
+  explicit LayerReader(const OpenLayer& open) : open_(open), all_(fields_of(open.layer())) {
     std::vector<std::string> names;
     for (const Field& field : all_) names.push_back(field.name);
-    fields_ = point_fields(names, PlacesIn::geometry,
-                           [&](const std::string& what) { throw PointsError(path_.string() + ": " + what); });
+    fields_ =
+        point_fields(names, PlacesIn::geometry, [&](const std::string& what) { throw PointsError(open_.file() + ": " + what); });
     std::vector<std::string> of_attributes;
     for (const std::size_t n : fields_.attributes) of_attributes.push_back(names[n]);
     result_.attributes = Attributes(std::move(of_attributes));
@@ -67,20 +105,20 @@ class LayerReader {
   }
 
   RequestedPoints read() && {
-    layer_.ResetReading();
-    for (Feature feature(layer_.GetNextFeature()); feature; feature.reset(layer_.GetNextFeature())) take(*feature);
+    open_.layer().ResetReading();
+    for (Feature feature = next_feature(open_.layer()); feature; feature = next_feature(open_.layer())) take(*feature);
     return std::move(result_);
   }
 
  private:
   [[noreturn]] void refuse(const OGRFeature& feature, const std::string& what) const {
-    throw PointsError(path_.string() + ": feature " + std::to_string(feature.GetFID()) + " of the layer \"" + layer_.GetName() +
-                      "\": " + what);
+    throw PointsError(open_.file() + ": feature " + std::to_string(feature.GetFID()) + " of the layer \"" +
+                      open_.layer().GetName() + "\": " + what);
   }
 
   /// None where the layer has no such field, or the feature nothing in it.
   [[nodiscard]] std::optional<double> number_if_any(const OGRFeature& feature, std::optional<std::size_t> field) const {
-    const std::string text = field ? text_of(feature, all_[*field]) : "";
+    const std::string text = field ? open_.text_of(feature, all_[*field]) : "";
     if (text.empty()) return std::nullopt;
     const std::optional<double> value = number_in(text);
     if (!value) refuse(feature, "\"" + text + "\" is not a number (" + all_[*field].name + "); write it like 123.4");
@@ -107,36 +145,19 @@ class LayerReader {
     if (point.z && !std::isfinite(*point.z)) refuse(feature, "its z is not a number; give the point a height, or no z");
     point.normal = normal_of(number_if_any(feature, fields_.azimuth), number_if_any(feature, fields_.tilt),
                              [&](const std::string& what) { refuse(feature, what); });
-    if (fields_.id) point.id = text_of(feature, all_[*fields_.id]);
+    if (fields_.id) point.id = open_.text_of(feature, all_[*fields_.id]);
     if (point.id.empty()) point.id = std::to_string(result_.points.size() + 1);
     result_.points.push_back(std::move(point));
     std::vector<std::string> values;
-    for (const std::size_t n : fields_.attributes) values.push_back(text_of(feature, all_[n]));
+    for (const std::size_t n : fields_.attributes) values.push_back(open_.text_of(feature, all_[n]));
     result_.attributes.add_row(values);
   }
 
-  const std::filesystem::path& path_;
-  OGRLayer& layer_;
+  const OpenLayer& open_;
   std::vector<Field> all_;
   PointFields fields_;  ///< of `all_`
   RequestedPoints result_;
 };
-
-std::string layers_of(GDALDataset& dataset) {
-  std::string names;
-  for (OGRLayer* layer : dataset.GetLayers()) names.append(names.empty() ? "\"" : ", \"").append(layer->GetName()).append("\"");
-  return names;
-}
-
-OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::filesystem::path& path) {
-  if (dataset.GetLayerCount() == 0) throw PointsError(path.string() + " has no layers: it holds no points");
-  if (name.empty() && dataset.GetLayerCount() == 1) return *dataset.GetLayer(0);
-  if (name.empty())
-    throw PointsError(path.string() + " has several layers: choose one by --points-layer, of " + layers_of(dataset));
-  OGRLayer* layer = dataset.GetLayerByName(name.c_str());
-  if (layer == nullptr) throw PointsError(path.string() + " has no layer \"" + name + "\": choose one of " + layers_of(dataset));
-  return *layer;
-}
 
 /// What GeoPackages call undefined is no CRS.
 std::string crs_of(OGRLayer& layer) {
@@ -159,27 +180,6 @@ void require_any(const RequestedPoints& read, const std::filesystem::path& path,
   if (read.skipped_features == 0) throw PointsError(none + "its layer is empty");
   throw PointsError(none + "none of its " + std::to_string(read.skipped_features) + " features is " + instead);
 }
-
-/// A layer that is open, with the messages of GDAL since then.
-class OpenLayer {
- public:
-  OpenLayer(const std::filesystem::path& path, const std::string& name) : path_(path) {
-    if (!std::filesystem::exists(path)) throw PointsError(path.string() + ": the file cannot be read; see that it exists");
-    dataset_ = open_vector_file(path);
-    if (!dataset_) throw PointsError(path.string() + " cannot be read as a vector file (" + messages_.last() + ")");
-    layer_ = &layer_of(*dataset_, name, path);
-  }
-  [[nodiscard]] OGRLayer& layer() const { return *layer_; }
-  void require_all_read() const {
-    if (messages_.any()) throw PointsError(path_.string() + " cannot be read to its end (" + messages_.last() + ")");
-  }
-
- private:
-  const std::filesystem::path& path_;
-  GdalErrors messages_;
-  GDALDatasetUniquePtr dataset_;
-  OGRLayer* layer_ = nullptr;
-};
 
 double length_of(std::span<const Point2d> line) {
   double length_m = 0.0;
@@ -211,8 +211,8 @@ class WalkAlong {
 /// Places points along the lines of one layer.
 class LineReader {
  public:
-  LineReader(OGRLayer& layer, const LineSampling& sampling, std::string crs)
-      : layer_(layer), sampling_(sampling), crs_(std::move(crs)), fields_(fields_of(layer)) {
+  LineReader(const OpenLayer& open, const LineSampling& sampling, std::string crs)
+      : open_(open), sampling_(sampling), crs_(std::move(crs)), fields_(fields_of(open.layer())) {
     std::vector<std::string> names;
     for (const Field& field : fields_) names.push_back(free_name(field.name));
     names.emplace_back(along);
@@ -220,8 +220,8 @@ class LineReader {
   }
 
   RequestedPoints read() && {
-    layer_.ResetReading();
-    for (Feature feature(layer_.GetNextFeature()); feature; feature.reset(layer_.GetNextFeature())) take(*feature);
+    open_.layer().ResetReading();
+    for (Feature feature = next_feature(open_.layer()); feature; feature = next_feature(open_.layer())) take(*feature);
     return std::move(result_);
   }
 
@@ -240,7 +240,7 @@ class LineReader {
       return;
     }
     std::vector<std::string> values;
-    for (const Field& field : fields_) values.push_back(text_of(feature, field));
+    for (const Field& field : fields_) values.push_back(open_.text_of(feature, field));
     values.emplace_back();
     if (type == wkbLineString) return take(*straight->toLineString(), values);
     for (const OGRLineString* part : *straight->toMultiLineString()) take(*part, values);
@@ -267,7 +267,7 @@ class LineReader {
     }
   }
 
-  OGRLayer& layer_;
+  const OpenLayer& open_;
   const LineSampling& sampling_;
   std::string crs_;
   std::vector<Field> fields_;
@@ -276,25 +276,18 @@ class LineReader {
 
 using Rings = std::vector<Region::Ring>;
 
-/// Adds the rings of a geometry without arcs.
-void add(const OGRGeometry& geometry, Rings& rings) {
-  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-  if (OGR_GT_IsSubClassOf(type, wkbPolygon) != 0) {
-    for (const OGRLinearRing* ring : *geometry.toPolygon()) {
+Rings rings_of(OGRLayer& layer) {
+  Rings rings;
+  const auto take = [&rings](const OGRPolygon& polygon, bool) {
+    for (const OGRLinearRing* ring : polygon) {
       Region::Ring& points = rings.emplace_back();
       for (int n = 0; n < ring->getNumPoints(); ++n) points.push_back({ring->getX(n), ring->getY(n)});
     }
-  } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
-    for (const OGRGeometry* member : *geometry.toGeometryCollection()) add(*member, rings);
-  }
-}
-
-Rings rings_of(OGRLayer& layer) {
-  Rings rings;
+  };
   for (Feature feature(layer.GetNextFeature()); feature; feature.reset(layer.GetNextFeature())) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
     const std::unique_ptr<OGRGeometry> straight(geometry == nullptr ? nullptr : geometry->getLinearGeometry());
-    if (straight) add(*straight, rings);
+    if (straight) for_each_polygon(*straight, take);
   }
   return rings;
 }
@@ -308,7 +301,7 @@ bool is_vector_file(const std::filesystem::path& path) {
 
 RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer_name, bool may_be_empty) {
   const OpenLayer open(path, layer_name);
-  RequestedPoints read = LayerReader(path, open.layer()).read();
+  RequestedPoints read = LayerReader(open).read();
   open.require_all_read();
   if (!may_be_empty) require_any(read, path, "points", "one; give points, not lines or polygons");
   if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "point"));
@@ -338,7 +331,7 @@ std::optional<Attributes> read_table_gdal(const std::filesystem::path& path, con
 RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::string& layer_name, const LineSampling& sampling) {
   const OpenLayer open(path, layer_name);
   const std::string own = crs_of(open.layer());
-  RequestedPoints read = LineReader(open.layer(), sampling, sampling.crs.empty() ? own : sampling.crs).read();
+  RequestedPoints read = LineReader(open, sampling, sampling.crs.empty() ? own : sampling.crs).read();
   open.require_all_read();
   require_any(read, path, "lines", "one; give lines, such as the axes of streets");
   if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "line"));

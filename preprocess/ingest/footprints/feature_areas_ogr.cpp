@@ -10,6 +10,7 @@
 
 #include "city/city_model.hpp"
 #include "farlod/angle.hpp"
+#include "gdal/vector_file_gdal.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -18,26 +19,6 @@ Ring ring_from(const OGRLinearRing& line) {
   Ring ring;
   for (int k = 0; k < line.getNumPoints(); ++k) ring.push_back({line.getX(k), line.getY(k), line.getZ(k)});
   return ring;
-}
-
-/// Collects the polygons of a geometry. Returns false when it contains something that is not an area.
-bool add_polygons(const OGRGeometry& geometry, Areas& areas) {
-  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-  if (OGR_GT_IsSubClassOf(type, wkbPolygon)) {
-    Rings& rings = areas.polygons.emplace_back();
-    for (const OGRLinearRing* ring : *geometry.toPolygon()) rings.push_back(ring_from(*ring));
-    return true;
-  }
-  if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
-    areas.is_made_of_faces = true;
-    const OGRPolyhedralSurface& surface = *geometry.toPolyhedralSurface();
-    for (int n = 0; n < surface.getNumGeometries(); ++n) add_polygons(*surface.getGeometryRef(n), areas);
-    return true;
-  }
-  if (type != wkbMultiPolygon && type != wkbGeometryCollection) return false;
-  bool all = true;
-  for (const OGRGeometry* member : *geometry.toGeometryCollection()) all = add_polygons(*member, areas) && all;
-  return all;
 }
 
 /// Whether a polygon is steeper than 45°, as walls are. No footprint that follows the terrain is as steep.
@@ -70,7 +51,12 @@ Point2d plan_scale(const OGRSpatialReference* reference, Point2d p) {
 Areas areas_of(const OGRGeometry& geometry, const OGRSpatialReference* reference) {
   const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
   Areas areas;
-  areas.holds_others = !straight || !add_polygons(*straight, areas);
+  const auto take = [&areas](const OGRPolygon& polygon, bool is_face) {
+    Rings& rings = areas.polygons.emplace_back();
+    for (const OGRLinearRing* ring : polygon) rings.push_back(ring_from(*ring));
+    areas.is_made_of_faces = areas.is_made_of_faces || is_face;
+  };
+  areas.holds_others = !straight || !for_each_polygon(*straight, take);
   const auto steep = [reference](const Rings& rings) { return !rings.empty() && is_steep(rings.front(), reference); };
   const bool is_surface =
       areas.is_made_of_faces || (areas.polygons.size() > 1 && std::any_of(areas.polygons.begin(), areas.polygons.end(), steep));

@@ -25,18 +25,11 @@ double area_of(const OGRGeometry& geometry) {
              : 0.0;
 }
 
-void add_polygons_of(const OGRGeometry& geometry, OGRMultiPolygon& all) {
-  if (OGR_GT_IsSubClassOf(wkbFlatten(geometry.getGeometryType()), wkbPolygon)) {
-    all.addGeometry(&geometry);
-  } else if (OGR_GT_IsSubClassOf(wkbFlatten(geometry.getGeometryType()), wkbGeometryCollection)) {
-    for (const OGRGeometry* member : *geometry.toGeometryCollection()) add_polygons_of(*member, all);
-  }
-}
-
 /// The area that geometries cover together: parts of a tower stand on each other. Empty where they are too damaged to tell.
 std::optional<double> plan_of(const std::vector<const OGRGeometry*>& geometries) {
   OGRMultiPolygon all;
-  for (const OGRGeometry* geometry : geometries) add_polygons_of(*geometry, all);
+  for (const OGRGeometry* geometry : geometries)
+    for_each_polygon(*geometry, [&all](const OGRPolygon& polygon, bool) { all.addGeometry(&polygon); });
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   const OGRGeometryUniquePtr together(all.UnionCascaded());
   return together ? std::optional(area_of(*together)) : std::nullopt;
@@ -112,7 +105,7 @@ FeatureRole FeatureTable::Row::role() const {
 }
 
 PartsOfLayer::PartsOfLayer(OGRLayer& layer, const FeatureTable& table) {
-  if (!table.tags().are_known()) return;
+  if (!table.tags().may_have_parts()) return;
   layer.ResetReading();
   for (Feature feature = next_feature(layer); feature; feature = next_feature(layer)) {
     OGRGeometry* geometry = feature->GetGeometryRef();

@@ -60,6 +60,8 @@ BuildingTags::BuildingTags(const std::vector<std::string>& names, const std::vec
   const bool says_yes =
       any_says(some, [](const TagLookup& tag) { return tag("building") == "yes" || tag("building:part") == "yes"; });
   are_known_ = are_of_overture_ || (has_key && (has_ids || says_yes));
+  const bool has_part_column = has_any(names, {"building:part"}) || (are_of_overture_ && has_any(names, {"building_id", "type"}));
+  may_have_parts_ = are_known_ && (has_collection || has_part_column);
 }
 
 FeatureRole BuildingTags::role_of(const TagLookup& tag) const {

@@ -38,10 +38,12 @@ class BuildingTags {
 
   /// Whether the table is one of OpenStreetMap or Overture. All features of another one are buildings.
   [[nodiscard]] bool are_known() const { return are_known_; }
+  /// Whether a feature of it can be a part.
+  [[nodiscard]] bool may_have_parts() const { return may_have_parts_; }
   [[nodiscard]] FeatureRole role_of(const TagLookup& tag) const;
 
  private:
-  bool are_known_ = false, are_of_overture_ = false;
+  bool are_known_ = false, are_of_overture_ = false, may_have_parts_ = false;
 };
 
 /// Fields that hold further tags of a feature, as GDAL's driver for OpenStreetMap and osm2pgsql write them.

@@ -21,7 +21,6 @@
 #include "ingest/footprints/feature_areas_ogr.hpp"
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
-#include "ingest/footprints/layer_choice_ogr.hpp"
 #include "ingest/footprints/openstreetmap_areas_gdal.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "plausibility/elevations_as_heights.hpp"
@@ -31,8 +30,16 @@ namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
+constexpr const char* encoding_option = "--encoding";
+
 bool holds_ascii_alone(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; });
+}
+
+bool may_hold_footprints(OGRLayer& layer) {
+  const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
+  return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbSurface) != 0 ||
+         OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
 }
 
 bool is_set(const OGRFeature& feature, int field) { return field >= 0 && feature.IsFieldSetAndNotNull(field); }
@@ -121,7 +128,7 @@ class FootprintLayer {
 
   const FootprintSettings& with_fields_checked(const FootprintSettings& settings) {
     // A name that cannot be read is not found either
-    require_texts();
+    require_utf8_names(layer_, builder_.source(), encoding_option);
     check_field(settings.height_field, "--height-field");
     check_field(settings.base_field, "--base-field");
     check_field(settings.storeys_field, "--storeys-field");
@@ -157,22 +164,7 @@ class FootprintLayer {
                      " has other features. Bodies that it links to, as KML does, are to be exported as OBJ.");
   }
 
-  /// Names and ids go into messages and packages, which are UTF-8.
-  void require_texts() {
-    layer_.ResetReading();
-    const Feature first = next_feature(layer_);
-    for (std::size_t f = 0; f < table_.names().size(); ++f) {
-      require_text(table_.names()[f]);
-      if (first) require_text(FeatureTable::Row(table_, *first).value(f).text);
-    }
-  }
-
-  void require_text(const std::string& text) const {
-    if (CPLIsUTF8(text.c_str(), -1) == 0)
-      throw InputError(builder_.source() +
-                       ": its names and texts are not UTF-8: say what they are in, such as --encoding GBK or CP1252, or give it "
-                       "a .cpg file that says so.");
-  }
+  void require_text(const std::string& text) const { require_utf8(text, layer_, builder_.source(), encoding_option); }
 
   void learn_bases() {
     std::vector<std::optional<float>> bases_m;
@@ -302,9 +294,9 @@ void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityModelBuilde
                              std::string("only one layer of a file is read, and that is ") + chosen->GetName());
 }
 
-GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
+GDALDatasetUniquePtr open(const InputFile& file, const std::optional<std::string>& encoding, GdalErrors& messages) {
   const GdalReach reach = file.is_named ? GdalReach::local_files : GdalReach::own_data;
-  GDALDatasetUniquePtr dataset = open_within(reach, file.path, GDAL_OF_VECTOR);
+  GDALDatasetUniquePtr dataset = open_within(reach, file.path, GDAL_OF_VECTOR, encoding);
   const std::vector<std::string> errors = messages.take();
   if (!dataset && !file.is_named && is_known_within(GdalReach::local_files, file.path, GDAL_OF_VECTOR))
     throw InputError(file.name + " is of a format that may name other files: give it by its own name, unpacked.");
@@ -320,16 +312,19 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
 SourceCity read_footprints(const InputFile& file, const FootprintSettings& settings, Report& report) {
   GdalErrors messages;
   const CPLConfigOptionSetter areas("OSM_CONFIG_FILE", file_of_openstreetmap_areas().c_str(), true);
-  const CPLConfigOptionSetter encoding("SHAPE_ENCODING", settings.encoding ? settings.encoding->c_str() : nullptr, true);
-  const GDALDatasetUniquePtr dataset = open(file, messages);
+  const GDALDatasetUniquePtr dataset = open(file, settings.encoding, messages);
   // Else GDAL keeps all points and lines in memory until somebody reads them
   if (is_openstreetmap(*dataset))
     dataset->ReleaseResultSet(dataset->ExecuteSQL("SET interest_layers = multipolygons", nullptr, ""));
-  OGRLayer* layer = choose_layer(*dataset, file.name, settings);
+  const LayerChoice choice{.name = settings.layer,
+                           .field = settings.height_field,
+                           .wanted = "areas, which footprints are",
+                           .may_hold = may_hold_footprints};
+  OGRLayer* layer = chosen_layer(*dataset, file.name, choice);
   if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
   CityModelBuilder builder(file.name, report);
   report_other_layers(*dataset, layer, builder);
-  const std::string others = is_openstreetmap(*dataset) ? "" : other_layers(*dataset, layer);
+  const std::string others = is_openstreetmap(*dataset) ? "" : other_layers(*dataset, layer, choice);
   FootprintLayer footprints(*layer, settings, others, builder);
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system

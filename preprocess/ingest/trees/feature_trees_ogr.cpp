@@ -23,8 +23,10 @@
 namespace farlod::ingest {
 namespace {
 
-GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& messages) {
-  GDALDatasetUniquePtr dataset = open_vector_file_or_table(file);
+constexpr const char* encoding_option = "--encoding";
+
+GDALDatasetUniquePtr open(const std::filesystem::path& file, const std::optional<std::string>& encoding, GdalErrors& messages) {
+  GDALDatasetUniquePtr dataset = open_vector_file_or_table(file, encoding);
   if (dataset) return dataset;
   const std::string reason = messages.last();
   throw InputError(file.string() + " cannot be read as an inventory of trees: give a vector file that GDAL reads, or a table" +
@@ -34,17 +36,6 @@ GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& message
 bool may_hold_trees(OGRLayer& layer) {
   const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
   return OGR_GT_IsCurve(type) == 0 && OGR_GT_IsSubClassOf(type, wkbMultiCurve) == 0;
-}
-
-/// The first that may hold trees and has the height field that the settings name; else the first that may hold trees.
-OGRLayer* choose_layer(GDALDataset& dataset, const TreeSettings& settings) {
-  OGRLayer* first = nullptr;
-  for (OGRLayer* layer : dataset.GetLayers()) {
-    if (!may_hold_trees(*layer)) continue;
-    if (!settings.height_field || layer->GetLayerDefn()->GetFieldIndex(settings.height_field->c_str()) >= 0) return layer;
-    if (first == nullptr) first = layer;
-  }
-  return first;
 }
 
 FieldValue value_of(const OGRFeature& feature, std::size_t field) {
@@ -91,6 +82,7 @@ class TreeLayer {
         names_(field_names(layer)),
         fields_(names_, settings),
         trees_(source_, settings.trunk_ratio) {
+    require_utf8_names(layer, source_, encoding_option);
     require_fields(settings);
     const OGRSpatialReference* reference = layer.GetSpatialRef();
     trees_.crs() = {wkt_of(reference), true, true};
@@ -160,6 +152,7 @@ class TreeLayer {
     const auto x = number(columns_->x), y = number(columns_->y);
     if (x && y) return add({*x, *y}, sizes);
     const std::string texts = value_of(feature, columns_->x).text + ", " + value_of(feature, columns_->y).text;
+    require_utf8(texts, layer_, source_, encoding_option);
     trees_.note(ProblemCode::unreadable_coordinate, name_, "\"" + texts + "\" are no coordinates");
   }
 
@@ -216,8 +209,13 @@ void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, const std::stri
 SourceTrees read_feature_trees(const std::filesystem::path& file, const TreeSettings& settings, Report& report,
                                const std::stop_token& stop) {
   GdalErrors messages;
-  const GDALDatasetUniquePtr dataset = open(file, messages);
-  OGRLayer* layer = choose_layer(*dataset, settings);
+  const GDALDatasetUniquePtr dataset = open(file, settings.encoding, messages);
+  const LayerChoice choice{.name = settings.layer,
+                           .field = settings.height_field,
+                           .option = "--trees-layer",
+                           .wanted = "points or areas, which trees are",
+                           .may_hold = may_hold_trees};
+  OGRLayer* layer = chosen_layer(*dataset, file.string(), choice);
   if (layer == nullptr) throw InputError(file.string() + " holds no layer of points or areas: trees are one of them.");
   report_other_layers(*dataset, layer, file.string(), report);
   return TreeLayer(*layer, file, settings).read(messages, report, stop);

@@ -134,6 +134,8 @@ void add_trees(py::module_& module) {
       .def_readwrite("height_field", &TreeSettings::height_field)
       .def_readwrite("crown_field", &TreeSettings::crown_field)
       .def_readwrite("trunk_field", &TreeSettings::trunk_field)
+      .def_readwrite("layer", &TreeSettings::layer)
+      .def_readwrite("encoding", &TreeSettings::encoding)
       .def_readwrite("trunk_ratio", &TreeSettings::trunk_ratio);
 }
 

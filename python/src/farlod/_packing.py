@@ -117,6 +117,8 @@ class Trees:
         Whether the heights of these rasters are elevations.
     trunk_ratio : float, default 0.25
         Share of its height at which a crown begins, where nothing else says it, 0 to 0.95.
+    layer : str, optional
+        Layer of an inventory of several (GeoPackage) to read.
     """
 
     inventory: Any = None
@@ -127,6 +129,7 @@ class Trees:
     canopy_trunk: Any = None
     absolute: bool = False
     trunk_ratio: float = 0.25
+    layer: str | None = None
 
 
 Align = Union[Literal["auto", "none"], float]
@@ -150,7 +153,7 @@ def _trees(trees: Trees, module: Any, folder: str, crs: str) -> Any:
     if trees.inventory is not None:
         inventories = trees.inventory if isinstance(trees.inventory, list) else [trees.inventory]
         settings.set_files([saved_model(one, folder, f"trees_{n}", crs=crs).path for n, one in enumerate(inventories)])
-    for ours, theirs in (("height", "height_field"), ("crown", "crown_field"), ("trunk", "trunk_field")):
+    for ours, theirs in (("height", "height_field"), ("crown", "crown_field"), ("trunk", "trunk_field"), ("layer", "layer")):
         name = getattr(trees, ours)
         if name is not None:
             setattr(settings, theirs, _arguments.path(f"trees.{ours}", name))
@@ -271,7 +274,8 @@ def pack(
     terrain_offset : float, default 0
         Metres added to them, where they count from another datum than the buildings.
     far_terrain : path, xarray.DataArray, or a list of them, optional
-        Elevations around the city, of any resolution: mountains beyond what `terrain` covers hide the sky.
+        Elevations around the city, of any resolution: mountains beyond what `terrain` covers hide the sky. A path may be a
+        folder of tiles.
     trees : Trees, path, GeoDataFrame, or a list of paths and GeoDataFrames, optional
         The trees of the city; anything but :class:`Trees` is an inventory.
     heights : Heights or str, optional
@@ -289,7 +293,7 @@ def pack(
     layer : str, optional
         Layer of a file of several (GeoPackage, File Geodatabase, netCDF) to read: features or a raster.
     encoding : str, optional
-        What the texts of a Shapefile without .cpg are in, such as ``"GBK"`` or ``"CP1252"``.
+        What the names and texts of Shapefiles without .cpg are in, such as ``"GBK"`` or ``"CP1252"``.
     up, obj_origin
         Which axis of meshes is up (auto: y in GLB, z in others), and (x, y, z) that is added to their coordinates.
     ground_names : str or sequence of str
@@ -378,7 +382,9 @@ def pack(
             settings.set_far_terrains([raster.path for raster in saved_far])
         if trees is not None:
             trees = trees if isinstance(trees, Trees) else Trees(inventory=trees)
-            settings.trees = _trees(trees, module, folder, settings.crs)
+            described = _trees(trees, module, folder, settings.crs)
+            described.encoding = settings.footprints.encoding
+            settings.trees = described
         _set_area(settings, area, folder)
         try:
             facts = module.pack(settings, rows, caller)

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "farlod/error.hpp"
+#include "ingest/trees/tree_reader.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 #include "tests/scenes/packed_city.hpp"
@@ -18,26 +19,29 @@ namespace {
 
 const std::string height_in_chinese = "\xe9\xab\x98\xe5\xba\xa6";
 
-/// A Shapefile with one house and a field of that name in GBK, which nothing in its files tells.
+constexpr const char* outline_of_one = "POLYGON((0 0,0 10,10 10,10 0,0 0))";
+
+/// A Shapefile with a field of that name in GBK, which nothing in its files tells, and a feature for each id.
 std::filesystem::path shapefile_in_gbk(const std::filesystem::path& folder, const std::string& name = height_in_chinese,
-                                       const std::vector<std::string>& ids = {"a"}) {
+                                       const std::vector<std::string>& ids = {"a"}, const char* shape = outline_of_one) {
   GDALAllRegister();
   const std::filesystem::path path = folder / "a.shp";
   const GDALDatasetUniquePtr dataset(
       GetGDALDriverManager()->GetDriverByName("ESRI Shapefile")->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   CPLStringList options(CSLSetNameValue(nullptr, "ENCODING", "GBK"), TRUE);
-  OGRLayer* layer = dataset->CreateLayer("a", nullptr, wkbPolygon, options.List());
+  OGRGeometry* geometry = nullptr;
+  EXPECT_EQ(OGRGeometryFactory::createFromWkt(shape, nullptr, &geometry), OGRERR_NONE);
+  const OGRGeometryUniquePtr owned(geometry);
+  OGRLayer* layer = dataset->CreateLayer("a", nullptr, geometry->getGeometryType(), options.List());
   OGRFieldDefn field(name.c_str(), OFTReal), id_field("id", OFTString);
   EXPECT_EQ(layer->CreateField(&field), OGRERR_NONE);
   EXPECT_EQ(layer->CreateField(&id_field), OGRERR_NONE);
   for (const std::string& id : ids) {
-    OGRFeature house(layer->GetLayerDefn());
-    house.SetField(0, 12.0);
-    house.SetField(1, id.c_str());
-    OGRGeometry* outline = nullptr;
-    EXPECT_EQ(OGRGeometryFactory::createFromWkt("POLYGON((0 0,0 10,10 10,10 0,0 0))", nullptr, &outline), OGRERR_NONE);
-    house.SetGeometryDirectly(outline);
-    EXPECT_EQ(layer->CreateFeature(&house), OGRERR_NONE);
+    OGRFeature feature(layer->GetLayerDefn());
+    feature.SetField(0, 12.0);
+    feature.SetField(1, id.c_str());
+    EXPECT_EQ(feature.SetGeometry(geometry), OGRERR_NONE);
+    EXPECT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
   }
   return path;
 }
@@ -92,6 +96,26 @@ TEST(Encodings, ThatATableStatesWronglyAreNamedWhereAFieldIsMissing) {
   settings.footprints.height_field = "hoch";
   EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_file(file, settings); }),
               testing::Not(testing::HasSubstr("--encoding")));
+}
+
+TEST(Encodings, OfTreesAreThoseOfHouses) {
+  const scenes::TemporaryFolder folder;
+  const std::filesystem::path file = shapefile_in_gbk(folder.path(), height_in_chinese, {"a"}, "POINT(5 5)");
+  forget_the_encoding(folder.path());
+  TreeSettings settings;
+  settings.height_field = height_in_chinese;
+  Report report;
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_trees(file, settings, report); }),
+              testing::HasSubstr("its names and texts are not UTF-8: say what they are in, such as --encoding GBK"));
+  settings.encoding = "GBK";
+  EXPECT_EQ(read_trees(file, settings, report).trees[0].height_m, 12.0F);
+}
+
+TEST(Encodings, OfTablesCanOnlyBeUtf8) {
+  const auto table = write_file("trees.csv", "lon,lat,H\xf6he\n11.5,48.1,12\n");
+  Report report;
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_trees(table, {}, report); }),
+              testing::HasSubstr("not UTF-8: save it again as UTF-8"));
 }
 
 }  // namespace

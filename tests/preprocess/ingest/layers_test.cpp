@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <ogrsf_frmts.h>
 
+#include "farlod/error.hpp"
 #include "reading.hpp"
+#include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
+#include "tree_reading.hpp"
 
 namespace farlod::ingest::test {
 namespace {
@@ -44,6 +47,19 @@ TEST(Layers, ThatAreNotReadAreNamed) {
   EXPECT_THAT(read_file(file, settings).source.notes, IsEmpty()) << "the user knows";
   const scenes::TemporaryFolder other;
   EXPECT_THAT(read_file(geopackage(other.path(), {"building"})).source.notes, IsEmpty());
+}
+
+TEST(Layers, OfTreesAreReadByTheirNames) {
+  const scenes::TemporaryFolder folder;
+  const std::filesystem::path file = geopackage(folder.path(), {"park", "street"});
+  TreeSettings settings;
+  settings.layer = "street";
+  const TreeReading reading = read_inventory(file, settings);
+  EXPECT_EQ(reading.trees().size(), 1U);
+  EXPECT_THAT(reading.detail_of(ProblemCode::unsupported_geometry), HasSubstr("that is street"));
+  settings.layer = "lane";
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_inventory(file, settings); }),
+              HasSubstr("has no layer \"lane\": give one of park, street as --trees-layer"));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::vector<std::string> row_of(const Attributes& attributes, std::size_t row) {
   return values;
 }
 
-/// A file with layers, written by GDAL.
+/// A file with layers, written by GDAL. Shapefiles are in GBK.
 class VectorFile {
  public:
   VectorFile(const char* driver, const std::filesystem::path& path) {
@@ -40,7 +40,10 @@ class VectorFile {
     OGRSpatialReference crs;
     if (epsg != 0) crs.importFromEPSG(epsg);
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    layer_ = dataset_->CreateLayer(name, epsg == 0 ? nullptr : &crs, type, nullptr);
+    const bool is_shapefile = EQUAL(dataset_->GetDriverName(), "ESRI Shapefile");
+    CPLStringList options;
+    if (is_shapefile) options.SetNameValue("ENCODING", "GBK");
+    layer_ = dataset_->CreateLayer(name, epsg == 0 ? nullptr : &crs, type, options.List());
     for (const auto& [field, kind] : fields) {
       OGRFieldDefn definition(field, kind);
       EXPECT_EQ(layer_->CreateField(&definition), OGRERR_NONE);
@@ -65,7 +68,7 @@ class VectorFile {
 };
 
 std::string complaint_about(const std::filesystem::path& path, const std::string& layer = "") {
-  return scenes::refusal_of<PointsError>([&] { (void)read_points_gdal(path, layer); });
+  return scenes::refusal_of<InputError>([&] { (void)read_points_gdal(path, layer); });
 }
 
 struct Format {
@@ -190,9 +193,25 @@ TEST_F(PointReaderGdal, OfSeveralLayersOneIsChosen) {
       .feature("POINT (1 2)")
       .layer("stations", 25832, wkbPoint, {})
       .feature("POINT (3 4)");
-  EXPECT_THAT(complaint_about(path), HasSubstr("choose one by --points-layer, of \"trees\", \"stations\""));
-  EXPECT_THAT(complaint_about(path, "roofs"), HasSubstr("no layer \"roofs\""));
+  EXPECT_THAT(complaint_about(path), HasSubstr("choose one by --points-layer, of trees, stations"));
+  EXPECT_THAT(complaint_about(path, "roofs"), HasSubstr("no layer \"roofs\": give one of trees, stations as --points-layer"));
   EXPECT_EQ(read_points_gdal(path, "stations").points.at(0).x, 3.0);
+}
+
+TEST_F(PointReaderGdal, TextsAreUtf8) {
+  const std::string name_in_chinese = "\xe9\xab\x98\xe5\xba\xa6";
+  path = folder.file("a.shp");
+  VectorFile("ESRI Shapefile", path).layer("a", 25832, wkbPoint, {{"id", OFTString}}).feature("POINT (1 2)", [&](OGRFeature& f) {
+    f.SetField("id", name_in_chinese.c_str());
+  });
+  EXPECT_EQ(read_points_gdal(path, "").points.at(0).id, name_in_chinese);
+  std::filesystem::remove(folder.file("a.cpg"));
+  std::fstream table(folder.file("a.dbf"), std::ios::in | std::ios::out | std::ios::binary);
+  constexpr std::streamoff place_of_the_encoding = 29;
+  table.seekp(place_of_the_encoding);
+  table.put('\0');
+  table.close();
+  EXPECT_THAT(complaint_about(path), HasSubstr("not UTF-8: give it a .cpg file that says what they are in, such as GBK"));
 }
 
 LineSampling every(double spacing_m, const std::string& crs = "") { return {spacing_m, crs, "EPSG:25832"}; }

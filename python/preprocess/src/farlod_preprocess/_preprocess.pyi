@@ -28,6 +28,8 @@ class TreeSettings:
     height_field: str | None
     crown_field: str | None
     trunk_field: str | None
+    layer: str | None
+    encoding: str | None
     trunk_ratio: float
     def __init__(self) -> None: ...
     def set_files(self, files: Sequence[str]) -> None: ...
