@@ -39,7 +39,8 @@ std::vector<std::vector<int>> sampled_runs(int length, int block) {
   constexpr int runs = 16, of_run = 32;
   std::vector<std::vector<int>> all;
   if (length <= runs * of_run) {
-    std::iota(all.emplace_back(static_cast<std::size_t>(length)).begin(), all.back().end(), 0);
+    all.emplace_back(static_cast<std::size_t>(length));
+    std::iota(all.front().begin(), all.front().end(), 0);
     return all;
   }
   const double apart = static_cast<double>(length) / runs;
