@@ -165,8 +165,8 @@ class Pack(QgisTest):
         shutil.copy(SAMPLES / "village.obj", folder)
         algorithm("pack", INPUT_FOLDER=folder, CRS="EPSG:32632", ORIGIN="10,20", ALIGN="none", NEIGHBORHOOD=5, OUTPUT=output)
         program("farlod-pack", SAMPLES / "village.obj", "--crs", "EPSG:32632", "--origin", "10,20", "--align", "none",
-                "--neighborhood", 5, "-o", WORK / "expected.farlod", "--quiet")
-        must("diff", "--recursive", WORK / "expected.farlod", output)
+                "--neighborhood", 5, "-o", WORK / "expected_obj.farlod", "--quiet")
+        must("diff", "--recursive", WORK / "expected_obj.farlod", output)
 
     def test_a_package_is_replaced_only_on_request(self) -> None:
         output = WORK / "again.farlod"
@@ -198,8 +198,8 @@ class Area(QgisTest):
         station.write_text(point_layer([{"coordinates": [9.6925, 49.6500]}]))
         algorithm("pack", INPUT=SAMPLES / "village.gml", CELL=40, AREA_LAYER=station, OUTPUT=WORK / "station.farlod")
         program("farlod-pack", SAMPLES / "village.gml", "--cell", 40, "--area", station,
-                "-o", WORK / "expected.farlod", "--quiet")
-        must("diff", "--recursive", WORK / "expected.farlod", WORK / "station.farlod")
+                "-o", WORK / "expected_station.farlod", "--quiet")
+        must("diff", "--recursive", WORK / "expected_station.farlod", WORK / "station.farlod")
 
 
 class Footprints(QgisTest):
@@ -209,11 +209,11 @@ class Footprints(QgisTest):
         must("ogr2ogr", two, SAMPLES / "village.geojson", "-nln", "others", "-where", "height > 15")
         must("ogr2ogr", "-update", two, SAMPLES / "village.geojson", "-nln", "chosen")
         program("farlod-pack", SAMPLES / "village.geojson", "--height-field", "height", "--base-field", "base",
-                "-o", WORK / "expected.farlod", "--quiet")
+                "-o", WORK / "expected_layer.farlod", "--quiet")
         for name, layer in {"geojson": SAMPLES / "village.geojson", "gpkg": f"{two}|layername=chosen"}.items():
             output = WORK / f"{name}.farlod"
             algorithm("pack", FOOTPRINTS=layer, HEIGHT_FIELD="height", BASE_FIELD="base", OUTPUT=output)
-            must("diff", "--recursive", WORK / "expected.farlod" / "blocks", output / "blocks")
+            must("diff", "--recursive", WORK / "expected_layer.farlod" / "blocks", output / "blocks")
 
     def test_a_terrain_is_read(self) -> None:
         terrain = WORK / "terrain.asc"
