@@ -104,7 +104,7 @@ bool for_each_polygon(const OGRGeometry& geometry, const std::function<void(cons
     for (int n = 0; n < surface.getNumGeometries(); ++n) visit(*surface.getGeometryRef(n), true);
     return true;
   }
-  if (type != wkbMultiPolygon && type != wkbGeometryCollection) return false;
+  if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) == 0) return false;
   bool all = true;
   for (const OGRGeometry* member : *geometry.toGeometryCollection()) all = for_each_polygon(*member, visit) && all;
   return all;

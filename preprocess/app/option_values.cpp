@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "console/shard_text.hpp"
 #include "farlod/error.hpp"
@@ -15,18 +16,16 @@
 namespace farlod {
 namespace {
 
-double number_in(const std::string& text, const std::string& option, const std::string& remedy) {
+/// The finite number that a text is.
+std::optional<double> number_if_any(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value))
-    throw CLI::ValidationError(option, "\"" + text + "\" is not a number: " + remedy);
-  return value;
+  return text.empty() || *end != '\0' || !std::isfinite(value) ? std::nullopt : std::optional(value);
 }
 
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
+double required_number(const std::string& text, const std::string& option, const std::string& remedy) {
+  if (const auto value = number_if_any(text)) return *value;
+  throw CLI::ValidationError(option, "\"" + text + "\" is not a number: " + remedy);
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ bool is_number(const std::string& text) {
 Point3d origin_in(const std::string& text) {
   std::vector<double> numbers;
   for (const std::string& part : CLI::detail::split(text, ','))
-    numbers.push_back(number_in(part, "--origin", "give X,Y or X,Y,Z"));
+    numbers.push_back(required_number(part, "--origin", "give X,Y or X,Y,Z"));
   if (numbers.size() != 2 && numbers.size() != 3) throw CLI::ValidationError("--origin", "give X,Y or X,Y,Z");
   return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
 }
@@ -46,7 +45,7 @@ void set_alignment(const std::string& text, PackSettings& s) {
     s.align = AlignMode::none;
   } else {
     s.align = AlignMode::fixed;
-    const double bearing_deg = number_in(text, "--align", "give auto, none, or degrees clockwise from grid north");
+    const double bearing_deg = required_number(text, "--align", "give auto, none, or degrees clockwise from grid north");
     if (std::abs(bearing_deg) > 360.0) throw CLI::ValidationError("--align", "\"" + text + "\" is more than a full turn");
     s.fixed_bearing = Angle::degrees(bearing_deg);
   }
@@ -56,12 +55,13 @@ FarMapArea area_in(const std::string& text) {
   const std::string option = "--area";
   if (text.empty()) throw CLI::ValidationError(option, "it is empty: give X0,Y0,X1,Y1, or the name of a file");
   const std::size_t comma = text.find(',');
-  if (comma == std::string::npos || !is_number(text.substr(0, comma))) return std::filesystem::path(text);
+  if (comma == std::string::npos || !number_if_any(text.substr(0, comma))) return std::filesystem::path(text);
   std::vector<double> n;
   // split() drops what is empty after the last comma: with one more, that is the comma's own
   for (const std::string& part : CLI::detail::split(text + ',', ',')) {
-    if (!is_number(part)) throw CLI::ValidationError(option, "\"" + text + "\" is not of the form X0,Y0,X1,Y1");
-    n.push_back(std::stod(part));
+    const auto number = number_if_any(part);
+    if (!number) throw CLI::ValidationError(option, "\"" + text + "\" is not of the form X0,Y0,X1,Y1");
+    n.push_back(*number);
   }
   if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
     throw CLI::ValidationError(option, "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
