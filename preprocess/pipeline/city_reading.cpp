@@ -252,7 +252,9 @@ TerrainTiles tiles_of(const std::vector<std::filesystem::path>& given) {
 
 CityFiles find_city_files(const StageSettings& settings, Report& report) {
   const std::optional<std::string>& layer = settings.ingest.footprints.layer;
-  CityFiles city{.terrain = tiles_of(settings.terrain), .far_terrain = tiles_of(settings.far_terrains)};
+  CityFiles city;
+  city.terrain = tiles_of(settings.terrain);
+  city.far_terrain = tiles_of(settings.far_terrains);
   const auto name_layer = [&] {
     for (georeference::TerrainFile& tile : city.terrain.files) tile.layer = layer;
   };
