@@ -54,7 +54,8 @@ TEST(StandIns, AreNoZerosOfASeaOrOfARasterThatCountsFromItsOwnGround) {
 /// A ground, or a town, between 500 and 560 m, and `number` in one of 100 pixels.
 Heights heights_with(float number, std::size_t pixels = 40) {
   Heights heights_m;
-  for (std::size_t n = 0; n < 100 * pixels; ++n) heights_m.emplace_back(n % 100 == 7 ? number : 500.0F + 0.6F * (n % 101));
+  for (std::size_t n = 0; n < 100 * pixels; ++n)
+    heights_m.emplace_back(n % 100 == 7 ? number : 500.0F + 0.6F * static_cast<float>(n % 101));
   return heights_m;
 }
 

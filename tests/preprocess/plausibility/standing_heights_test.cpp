@@ -82,7 +82,9 @@ TEST_P(OnSlopes, AnOffsetIsToldWithItsHeight) {
     const double proposed_m = std::stod(text.substr(text.find("--terrain-offset") + 17));
     EXPECT_NEAR(proposed_m, offset, 0.3) << text;
     const bool cannot_be = offset > 10 || offset < -10;  // floors above all ground, roofs below it
-    if (cannot_be) EXPECT_NE(refusal, "no refusal") << offset;
+    if (cannot_be) {
+      EXPECT_NE(refusal, "no refusal") << offset;
+    }
   }
 }
 
