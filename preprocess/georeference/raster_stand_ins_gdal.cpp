@@ -36,7 +36,7 @@ namespace {
 /// Pixels along a side of a raster, in runs that lie in one block each where blocks are small beside the raster: all blocks of a
 /// large one would take as long as reading it.
 std::vector<std::vector<int>> sampled_runs(int length, int block) {
-  constexpr int runs = 16, of_run = 32;
+  constexpr int runs = 64, of_run = 8;
   std::vector<std::vector<int>> all;
   if (length <= runs * of_run) {
     all.emplace_back(static_cast<std::size_t>(length));

@@ -365,6 +365,19 @@ TEST_F(TerrainReader, SeveralOfThemInOneRasterAreNotMixedEither) {
     }
 }
 
+TEST_F(TerrainReader, OfALargeRasterSomeBlocksAreSampled) {
+  const auto small = make_raster(file("small.tif"), {"EPSG:4326", {11.55, 1e-5, 0.0, 48.14, 0.0, -1e-5}, 1200, 1200, GDT_Byte});
+  small->GetRasterBand(1)->Fill(50.0);
+  std::vector<double> zeros(std::size_t{40} * 40);
+  ASSERT_EQ(small->GetRasterBand(1)->RasterIO(GF_Write, 700, 900, 40, 40, zeros.data(), 40, 40, GDT_Float64, 0, 0, nullptr),
+            CE_None);
+  CPLStringList blocks(CSLTokenizeString2("TILED=YES BLOCKXSIZE=16 BLOCKYSIZE=16", " ", 0), TRUE);
+  GDALClose(small->GetDriver()->CreateCopy(file("large.tif").c_str(), small.get(), 0, blocks.List(), nullptr, nullptr));
+  (void)read_terrain(file("large.tif"), "", georeference_of_terrain(file("large.tif"), {}), Box2d{{-5.0, -5.0}, {5.0, 5.0}},
+                     report);
+  EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 0 is no height here")));
+}
+
 TEST_F(TerrainReader, APlaceThatCannotBeIsToldAsThatOfABuildingIs) {
   const auto read = [&](const std::string& code, std::array<double, 6> transform) {
     report = Report();
