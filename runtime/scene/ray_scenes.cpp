@@ -2,11 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/ray_scenes.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
+#include "base/cancellation.hpp"
 #include "scene/canopy_around.hpp"
 
 namespace farlod {
+namespace {
+
+/// Nothing is rounded on the way: a float some kilometres from the origin is half a millimetre off.
+Point3d moved(const Point3f& p, Point2d by_m) { return {p.x + by_m.x, p.y + by_m.y, p.z}; }
+
+std::vector<TriangleIndex::Corners> triangles_of_whole_city(const PackageReader& package, const std::stop_token& stop) {
+  std::vector<TriangleIndex::Corners> triangles;
+  const auto add = [&](const MeshView& mesh, Point2d corner_m) {
+    throw_if_cancelled(stop);
+    const auto corner = [&](std::uint32_t number) { return moved(mesh.vertices[number], corner_m); };
+    for (const Triangle& t : mesh.triangles) triangles.push_back({corner(t.a), corner(t.b), corner(t.c)});
+  };
+  const Grid& grid = package.grid();
+  for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
+    const Cell cell = grid.cells.cell_at(n);
+    add(package.tile(cell).mesh, grid.corner_of(cell) - grid.middle_corner());
+  }
+  add(package.far_terrain(), {});
+  return triangles;
+}
+
+}  // namespace
 
 Occluder near_scene(const PackageReader& package, Cell cell) {
   const Grid& grid = package.grid();
@@ -28,6 +54,16 @@ WholeCityOnDemand::WholeCityOnDemand(const PackageReader& package, std::stop_tok
 const WholeCity& WholeCityOnDemand::city() const {
   std::call_once(has_city_, [&] { city_.emplace(package_, stop_); });
   return *city_;
+}
+
+const TriangleIndex& WholeCityOnDemand::triangles() const {
+  std::call_once(has_triangles_, [&] { triangles_.emplace(triangles_of_whole_city(package_, stop_)); });
+  return *triangles_;
+}
+
+Point3d WholeCityOnDemand::scene_from_cell(const Point3f& p_cell, Cell cell) const {
+  const Grid& grid = package_.grid();
+  return moved(p_cell, grid.corner_of(cell) - grid.middle_corner());
 }
 
 const CrownOccluder& WholeCityOnDemand::crowns(const CanopySettings& settings) const {

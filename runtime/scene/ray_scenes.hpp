@@ -12,6 +12,7 @@
 #include "occlusion/occluder.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "package/package_reader.hpp"
+#include "scene/triangle_index.hpp"
 
 namespace farlod {
 
@@ -37,8 +38,8 @@ class WholeCity {
   Occluder occluder_;
 };
 
-/// The scene of the whole city, and its crowns in the frame of that scene: each is made when it is first asked for. Threads may
-/// share it.
+/// The scene of the whole city, its triangles and its crowns in the frame of that scene: each is made when it is first asked for.
+/// Threads may share it.
 class WholeCityOnDemand {
  public:
   /// The package must outlive it. What is asked for ends with Cancelled when `stop` is asked for.
@@ -47,14 +48,19 @@ class WholeCityOnDemand {
   [[nodiscard]] const WholeCity& city() const;
   /// The scene for receivers of a cell.
   [[nodiscard]] PlacedScene seen_from(Cell cell) const { return {city().occluder(), city().scene_from_cell_m(cell)}; }
+  /// The triangles of the same scene in the same frame, to the last bit of the package.
+  [[nodiscard]] const TriangleIndex& triangles() const;
+  /// A place of the frame of `cell` in their frame.
+  [[nodiscard]] Point3d scene_from_cell(const Point3f& p_cell, Cell cell) const;
   /// `settings` are the same at each call.
   [[nodiscard]] const CrownOccluder& crowns(const CanopySettings& settings) const;
 
  private:
   const PackageReader& package_;
   std::stop_token stop_;
-  mutable std::once_flag has_city_, has_crowns_;
+  mutable std::once_flag has_city_, has_triangles_, has_crowns_;
   mutable std::optional<WholeCity> city_;
+  mutable std::optional<TriangleIndex> triangles_;
   mutable std::optional<CrownOccluder> crowns_;
 };
 
