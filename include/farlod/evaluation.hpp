@@ -59,15 +59,16 @@ struct EvaluationSettings {
   Engine engine = Engine::automatic;
   SkyWeight weight = SkyWeight::cosine;
   DirectionSet directions = DirectionSet::partition;
-  /// Azimuths of a horizon, 4 to 1,000,000; if empty, default_azimuths, or as many as `max_error` needs.
+  /// Azimuths of a horizon, 4 to 1,000,000, with bounds and errors at least 8; if empty, default_azimuths, or as many as
+  /// `max_error` of svf_total needs.
   std::optional<std::size_t> azimuths;
-  /// Directions of a receiver's rays, 1 to 10,000,000; if empty, default_rays, or as many as `max_error` needs.
+  /// Directions of a receiver's rays, 1 to 10,000,000; if empty, default_rays, or as many as `max_error` of svf_total needs.
   std::optional<std::size_t> rays;
-  /// Largest error allowed, 0.0001 to 1, of the sky view factor and of Quantities::svf_total: chooses azimuths and rays, and
-  /// traces exactly where the far map and merged crowns are not enough. Needs far maps of the kind `horizon`, or Engine::exact.
+  /// Largest error allowed, 0.0001 to 1: certain for the sky view factor, of which the whole city decides what is left open; for
+  /// Quantities::svf_total by as many azimuths and rays as that was found to need. Needs far maps of the kind `horizon`, or
+  /// Engine::exact.
   std::optional<double> max_error;
-  /// Also compute a certain lower and upper bound of each value, with these azimuths or rays and the true far city. Needs the
-  /// same.
+  /// Also compute a lower and an upper bound of each value, between which the true value of the packed city lies. Needs the same.
   bool bounds = false;
   /// After the run, compute so many random receivers exactly and compare: EvaluationSummary::errors. All if there are fewer.
   std::size_t verify = 0;
@@ -129,9 +130,10 @@ struct ValueRange {
 /// What the settings came to, and the error that follows from it.
 struct Accuracy {
   std::size_t azimuths = default_azimuths, rays = default_rays;
-  /// Upper estimate for the sky between the samples; not a certain bound. Of a run: between those that answered.
+  /// Upper estimate for the sky between the samples; not a certain bound. Of a run: between those that answered. 0 where bounds
+  /// keep EvaluationSettings::max_error, which is certain.
   double sampling_error = 0.0;
-  std::optional<double> far_error_allowed;  ///< what EvaluationSettings::max_error leaves for the far map
+  std::optional<double> far_error_allowed;  ///< what EvaluationSettings::max_error leaves beside that, and bounds keep
 };
 
 /// What some settings come to, before any run: within the grid, with far maps of the kind `horizon`. Throws InvalidArgument, as
@@ -161,7 +163,7 @@ struct EvaluationSummary {
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<BoundsWidth> bounds;
   std::uint64_t by_rays = 0;        ///< receivers that needed rays
-  std::uint64_t retraced_rays = 0;  ///< traced against the whole city because the far map was not enough (max_error)
+  std::uint64_t retraced_rays = 0;  ///< rays and parts of the sky (wedges) that the whole city decided (max_error)
   std::optional<ErrorSummary> errors;
   /// Where these are computed: Quantities::svf_total, its bounds, and the errors of EvaluationSettings::verify.
   std::optional<ValueRange> svf_total;

@@ -87,7 +87,9 @@ struct Answers {
 Answers evaluate(const PackageReader& package, std::span<const CellReceivers> cells, Engine engine, std::size_t rays,
                  const std::stop_token& stop) {
   Answers answers(count_receivers(cells));
-  const SkyEvaluator evaluator(package, {engine, SkyWeight::cosine, rays}, stop);
+  SkySettings settings{engine, SkyWeight::cosine, rays};
+  settings.bounds_of_same_rays = true;
+  const SkyEvaluator evaluator(package, settings, stop);
   oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
     evaluator.evaluate(cells[n], SkyAnswers(answers.svf, answers.low, answers.high));
   });

@@ -288,7 +288,8 @@ void print_errors(const char* of_what, const ErrorSummary& e) {
 void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& asked) {
   if (asked.max_error)
     fmt::print(
-        "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} rays traced against the whole city\n",
+        "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} parts of the sky decided by the whole "
+        "city\n",
         *asked.max_error, run.accuracy.azimuths, run.accuracy.rays, run.retraced_rays);
   if (run.bounds)
     fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
@@ -329,7 +330,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   if (asked.engine == Engine::automatic && run.by_rays > 0)
     fmt::print(
         "{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
-        run.by_rays, run.accuracy.rays, asked.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
+        run.by_rays, run.accuracy.rays, asked.max_error ? ", or their bounds were wider than allowed" : "");
   print_accuracy(run, asked);
   for (const std::string& note : written.notes) fmt::print("{}\n", note);
   for (const auto& file : written.files) fmt::print("{}\n", file.string());

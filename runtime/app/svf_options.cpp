@@ -131,9 +131,9 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(one_of(engine_words, Engine::near_only))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option(
-         "--rays", o.evaluation.rays,
-         "Directions a receiver, for rays (default: " + std::to_string(default_rays) + ", or as many as --max-error needs)")
+  app.add_option("--rays", o.evaluation.rays,
+                 "Directions a receiver, for rays (default: " + std::to_string(default_rays) +
+                     ", or as many as --max-error needs for trees)")
       ->check(between(1, 10000000))
       ->group("Accuracy");
   app.add_option("--directions", raw.directions,
@@ -141,8 +141,9 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(one_of(direction_set_words))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--azimuths", o.evaluation.azimuths,
-                 "Azimuths of a horizon (default: " + std::to_string(default_azimuths) + ", or as many as --max-error needs)")
+  app.add_option(
+         "--azimuths", o.evaluation.azimuths,
+         "Azimuths of a horizon (default: " + std::to_string(default_azimuths) + ", or as many as --max-error needs for trees)")
       ->check(between(4, 1000000))
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
@@ -153,11 +154,11 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
 
 void add_error_options(CLI::App& app, SvfOptions& o) {
   app.add_option("--max-error", o.evaluation.max_error,
-                 "Largest error allowed: chooses azimuths and rays, and traces exactly where the far map is not enough")
+                 "Largest error allowed, for certain: the whole city decides what is left open (with trees, a measured law)")
       ->check(between(0.0001, 1.0))
       ->group("Accuracy");
   app.add_flag("--bounds", o.evaluation.bounds,
-               "Also write a certain lower and upper bound of each value, with these azimuths or rays")
+               "Also write a lower and an upper bound of each value, between which the true one of the packed city lies")
       ->group("Accuracy");
   app.add_option("--verify", o.evaluation.verify, "Also compute this many random receivers exactly, and report the errors")
       ->check(between(0, 1000000000))
@@ -284,7 +285,7 @@ void require_accuracy(const EvaluationSettings& settings) {
   try {
     (void)accuracy_of(settings);
   } catch (const InvalidArgument& error) {
-    throw CLI::ValidationError("--max-error", error.what());
+    throw CLI::ValidationError(settings.max_error ? "--max-error" : "--bounds", error.what());
   }
 }
 

@@ -145,14 +145,13 @@ void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, 
 }
 
 SkiesOfPacket skies_of(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
-                       const SkyAnswers& answers, bool are_drawn, const std::optional<double>& max_error) {
+                       const SkyAnswers& answers) {
   SkiesOfPacket skies;
   for (std::size_t l = 0; l < numbers.size(); ++l) {
-    const std::size_t index = cell.receivers[numbers[l]].index;
-    const float svf = answers.svf[index], error = static_cast<float>(max_error.value_or(0.0));
-    SvfInterval traced{std::max(0.0F, svf - error), svf, std::min(1.0F, svf + error)};
-    if (!answers.low.empty()) traced = {answers.low[index], svf, answers.high[index]};
-    skies[l] = {are_drawn ? packet.svf[l] : traced, packet.drawn[l], are_drawn};
+    // That of rays may lie beside the one that was drawn
+    const float svf = answers.svf[cell.receivers[numbers[l]].index];
+    const SvfInterval& drawn = packet.svf[l];
+    skies[l] = {{std::min(drawn.low, svf), svf, std::max(drawn.high, svf)}, packet.drawn[l]};
   }
   return skies;
 }

@@ -41,12 +41,10 @@ void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, 
                            const SkyDirections& directions, const FurtherQuantities& quantities, const SkyAnswers& answers,
                            const std::stop_token& stop);
 
-/// What is known of the skies of a packet, whose receivers have these numbers in the cell and whose answers are stored: made of
-/// its profile (`are_drawn`), or of rays, which keep `max_error`.
+/// What is known of the skies of a packet, whose receivers have these numbers in the cell and whose answers are stored.
 using SkiesOfPacket = std::array<SkyOfReceiver, ReceiverPacket::lanes>;
 [[nodiscard]] SkiesOfPacket skies_of(const PacketAnswer& packet, const CellReceivers& cell,
-                                     std::span<const std::uint32_t> numbers, const SkyAnswers& answers, bool are_drawn,
-                                     const std::optional<double>& max_error);
+                                     std::span<const std::uint32_t> numbers, const SkyAnswers& answers);
 
 /// How certain svf_total is to be.
 struct CanopyCertainty {

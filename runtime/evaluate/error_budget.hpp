@@ -18,7 +18,7 @@ inline constexpr double sampling_error_factor = 2.4;
 [[nodiscard]] std::size_t rays_for_sampling_error(double error);
 
 /// The largest error measured among 700,000 receivers in streets, on roofs and on walls of four cities is this over the number of
-/// azimuths of their horizons, from 256 of them on; with fewer, up to a quarter more (docs/decisions/0019-halved-intervals.md).
+/// azimuths of their horizons, from 256 of them on; with fewer, up to a quarter more (docs/decisions/0010-error-control.md).
 inline constexpr double azimuth_error_factor = 1.6;
 
 /// The same for horizons: the error of so many azimuths at the most, and the fewest azimuths whose error is at most this.

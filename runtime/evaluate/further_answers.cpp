@@ -240,19 +240,19 @@ void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty
 }
 
 void FurtherAnswers::find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
-                                   const DrawnAnswers& drawn) {
+                                   std::span<const PacketAnswer> drawn) {
   skies_.clear();
   for (std::size_t n = 0; n < packets.size(); ++n) {
     const std::span<const std::uint32_t> of_packet = numbers.first(packets[n].count);
-    skies_.push_back(skies_of(drawn.packets[n], cell_, of_packet, answers_, drawn.are_answers, drawn.max_error));
+    skies_.push_back(skies_of(drawn[n], cell_, of_packet, answers_));
     numbers = numbers.subspan(packets[n].count);
   }
   of_canopies_ = canopies_->evaluate(std::span(profiles_).first(packets.size()), packets, skies_);
 }
 
 void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
-                           const DrawnAnswers& drawn) {
-  FARLOD_EXPECTS(!canopies_ || drawn.packets.size() == packets.size());
+                           std::span<const PacketAnswer> drawn) {
+  FARLOD_EXPECTS(!canopies_ || drawn.size() == packets.size());
   if (near_sky_) near_sky_->evaluate(packets);
   if (canopies_) find_canopies(packets, numbers, drawn);
   for (std::size_t n = 0; n < packets.size(); ++n) {

@@ -20,13 +20,6 @@
 
 namespace farlod {
 
-/// What was drawn for a group.
-struct DrawnAnswers {
-  std::span<const PacketAnswer> packets;
-  bool are_answers = true;  ///< they are what is stored; otherwise that is of rays, which keep `max_error`
-  std::optional<double> max_error = std::nullopt;
-};
-
 /// Stores further quantities of the receivers of a cell, group by group of packets: first their profiles are drawn or traced, and
 /// their svf is stored among the answers, then store() is called.
 class FurtherAnswers {
@@ -49,12 +42,15 @@ class FurtherAnswers {
   /// How many rays were traced against the whole city so far.
   [[nodiscard]] std::uint64_t retraced_rays() const { return canopies_ ? canopies_->retraced_rays() : 0; }
 
-  /// `numbers` are those of the receivers in the cell, packet by packet.
-  void store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers, const DrawnAnswers& drawn = {});
+  /// `numbers` are those of the receivers in the cell, packet by packet; `drawn` is what was drawn for the group, if anything
+  /// was.
+  void store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
+             std::span<const PacketAnswer> drawn = {});
 
  private:
   class NearSky;
-  void find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers, const DrawnAnswers& drawn);
+  void find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
+                     std::span<const PacketAnswer> drawn);
   void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers);
 
   const FurtherQuantities& quantities_;

@@ -54,10 +54,9 @@ class MethodWithHorizons : public SkyMethod {
 
  protected:
   /// Draws horizons, and tells `on_packet(answer, numbers)` of each packet, whose receivers have these numbers in the cell: it
-  /// stores svf. What is asked for besides is stored afterwards. `are_answers`: svf is that of the horizons.
+  /// stores svf. What is asked for besides is stored afterwards.
   template <class OnPacket>
-  void draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, bool are_answers,
-            const OnPacket& on_packet) const;
+  void draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, const OnPacket& on_packet) const;
 
   const Evaluation& evaluation_;
 
@@ -71,7 +70,7 @@ class MethodWithHorizons : public SkyMethod {
     const Quantities& wanted = evaluation_.settings.further;
     CanopyCertainty certainty;
     if (!wanted.svf_total) return certainty;
-    certainty.max_error = evaluation_.settings.max_far_error;
+    certainty.max_error = evaluation_.settings.allowed_error;
     certainty.bounds = wanted.svf_total_bounds || certainty.max_error;
     certainty.city = evaluation_.city.get();
     certainty.directions = &evaluation_.directions;
@@ -86,13 +85,14 @@ class MethodWithHorizons : public SkyMethod {
 };
 
 template <class OnPacket>
-void MethodWithHorizons::draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, bool are_answers,
+void MethodWithHorizons::draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers,
                               const OnPacket& on_packet) const {
   const Evaluation& e = evaluation_;
-  const std::optional<double>& max_error = e.settings.max_far_error;
   HorizonEngine engine(e.further.azimuths(), e.settings.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        gap_settings());
-  if (max_error) engine.keep({*max_error, *e.city, cell.cell});
+  // Where crowns are counted above the sky, half of the error is left to them
+  const double share = e.settings.further.svf_total ? 0.5 : 1.0;
+  if (e.settings.allowed_error) engine.keep({share * *e.settings.allowed_error, *e.city, cell.cell, e.stop});
   FurtherAnswers further(e.further, cell, answers);
   begin_further(further, engine, geometry.far);
   std::vector<PacketAnswer> of_packets;
@@ -107,7 +107,7 @@ void MethodWithHorizons::draw(CellGeometry& geometry, const CellReceivers& cell,
                      on_packet(of_packets[n], left.first(packets[n].count));
                      left = left.subspan(packets[n].count);
                    }
-                   if (!e.further.empty()) further.store(packets, numbers, {of_packets, are_answers, max_error});
+                   if (!e.further.empty()) further.store(packets, numbers, of_packets);
                  });
   e.counter->add({0, further.retraced_rays()}, answers);
 }
@@ -122,10 +122,10 @@ class HorizonMethod final : public MethodWithHorizons {
     require_far_map(cell.cell);
     CellGeometry geometry(evaluation_, cell);
     const auto scene_ready = EvaluationCounter::Clock::now();
-    draw(geometry, cell, answers, true, [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
+    draw(geometry, cell, answers, [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
       if (packet.by_gap_rays != 0) require_rays_allowed(cell.cell);
       for (std::size_t l = 0; l < numbers.size(); ++l) answers.store(cell.receivers[numbers[l]].index, packet.svf[l]);
-      evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.retraced_rays}, answers);
+      evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.decided_wedges}, answers);
     });
     evaluation_.counter->add_times(start, scene_ready);
   }
@@ -157,18 +157,24 @@ class RayMethod final : public MethodWithHorizons {
     CellGeometry geometry(evaluation_, cell);
     const auto scene_ready = EvaluationCounter::Clock::now();
     count_rays(geometry, cell, answers);
-    if (!evaluation_.further.empty())
-      draw(geometry, cell, answers, false, [](const PacketAnswer&, std::span<const std::uint32_t>) {});
+    // Rays of a sample know no bounds: those are of horizons, and answers keep within them
+    const bool wants_bounds = evaluation_.wants_bounds(answers);
+    if (wants_bounds || !evaluation_.further.empty())
+      draw(geometry, cell, answers, [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
+        for (std::size_t l = 0; wants_bounds && l < numbers.size(); ++l)
+          store_within(packet.svf[l], cell.receivers[numbers[l]].index, answers);
+        evaluation_.counter->add({0, packet.decided_wedges}, answers);
+      });
     evaluation_.counter->add_times(start, scene_ready);
   }
 
  private:
   void count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
-  void count_packet(RayEngine& engine, Cell cell, std::span<const Receiver> receivers, const SkyAnswers& answers) const;
-  /// Traces the rays that the far map leaves open, of receivers for whom they are more than the allowed error to one side of the
-  /// estimate. Returns how many.
-  [[nodiscard]] std::uint64_t retrace_open_rays(const RayEngine& engine, Cell cell, std::span<const Receiver> receivers,
-                                                std::span<FreeRays> free) const;
+  void count_packet(RayEngine& engine, std::span<const Receiver> receivers, const SkyAnswers& answers) const;
+  void store_within(const SvfInterval& bounds, std::size_t index, const SkyAnswers& answers) const {
+    const auto error = static_cast<float>(evaluation_.settings.allowed_error.value_or(1.0));
+    answers.store(index, within_error({bounds.low, std::clamp(answers.svf[index], bounds.low, bounds.high), bounds.high}, error));
+  }
 };
 
 void RayMethod::count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
@@ -187,40 +193,20 @@ void RayMethod::count_rays(CellGeometry& geometry, const CellReceivers& cell, co
       return;
     }
     const DirectionSampling sampling(directions);
-    RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, evaluation_.wants_bounds(answers),
+    RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, evaluation_.settings.bounds_of_same_rays,
                      evaluation_.stop);
     for (std::size_t first = 0; first < group.size(); first += ReceiverPacket::lanes)
-      count_packet(engine, cell.cell, group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first)), answers);
+      count_packet(engine, group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first)), answers);
   });
 }
 
-void RayMethod::count_packet(RayEngine& engine, Cell cell, std::span<const Receiver> receivers, const SkyAnswers& answers) const {
+void RayMethod::count_packet(RayEngine& engine, std::span<const Receiver> receivers, const SkyAnswers& answers) const {
   throw_if_cancelled(evaluation_.stop);
-  std::vector<FreeRays> free = engine.count(receivers);
-  if (evaluation_.settings.max_far_error)
-    evaluation_.counter->add({0, retrace_open_rays(engine, cell, receivers, free)}, answers);
+  const std::vector<FreeRays> free = engine.count(receivers);
   const double ray_count = static_cast<double>(evaluation_.directions.ray_count());
   const auto part = [ray_count](std::uint32_t n) { return static_cast<float>(static_cast<double>(n) / ray_count); };
   for (std::size_t n = 0; n < receivers.size(); ++n)
     answers.store(receivers[n].index, {part(free[n].low), part(free[n].estimate), part(free[n].high)});
-}
-
-std::uint64_t RayMethod::retrace_open_rays(const RayEngine& engine, Cell cell, std::span<const Receiver> receivers,
-                                           std::span<FreeRays> free) const {
-  const double most = *evaluation_.settings.max_far_error * static_cast<double>(evaluation_.directions.ray_count());
-  std::uint32_t uncertain = 0;
-  for (std::size_t l = 0; l < free.size(); ++l)
-    if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
-  if (uncertain == 0) return 0;
-  const PlacedScene city = evaluation_.city->seen_from(cell);
-  RayOrigins origins;
-  for (std::size_t l = 0; l < receivers.size(); ++l) {
-    const Point3f p = placed(receivers[l].p_cell, city.scene_from_cell_m);
-    origins.x[l] = p.x;
-    origins.y[l] = p.y;
-    origins.z[l] = p.z;
-  }
-  return engine.retrace(city.occluder, origins, uncertain, free);
 }
 
 }  // namespace

@@ -19,18 +19,20 @@ struct SkySettings {
   Engine engine = Engine::automatic;
   SkyWeight weight = SkyWeight::cosine;
   std::size_t rays = default_rays;
-  /// Allowed error of the far map: where the interval of an answer is wider, the directions that the far map leaves open are
-  /// traced against the whole city. Needs far maps of the kind `horizon`.
-  std::optional<double> max_far_error = std::nullopt;
+  /// No answer is farther from the true one: where its bounds are wider, the whole city decides. Needs far maps of the kind
+  /// `horizon`.
+  std::optional<double> allowed_error = std::nullopt;
   DirectionSet directions = DirectionSet::partition;
   std::size_t azimuths = default_azimuths;  ///< of horizons
-  Quantities further = {};                  ///< what is computed beside the sky view factor
+  /// With Engine::rays, low and high are those of the same rays, of which the far map leaves some open; else of the true value.
+  bool bounds_of_same_rays = false;
+  Quantities further = {};  ///< what is computed beside the sky view factor
 };
 
 /// What took more than a horizon.
 struct RayCounts {
   std::uint64_t by_rays = 0;        ///< receivers that needed rays
-  std::uint64_t retraced_rays = 0;  ///< rays traced against the whole city because the far map did not decide them
+  std::uint64_t retraced_rays = 0;  ///< rays and wedges that the whole city decided because of an allowed error
 };
 
 /// What an evaluator has done so far.

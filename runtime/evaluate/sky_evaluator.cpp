@@ -33,8 +33,9 @@ EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
 double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map) {
   const EvaluationMethod method = method_of(settings.engine, far_map);
   const bool has_horizons = method == EvaluationMethod::horizons_alone || method == EvaluationMethod::horizons_and_rays;
-  // With an allowed far error, rays answer some receivers of `horizons_alone`, too
-  const bool has_rays = method != EvaluationMethod::horizons_alone || settings.max_far_error.has_value();
+  const bool has_rays = method != EvaluationMethod::horizons_alone;
+  // Bounds keep an allowed error, whatever lies between the samples; but crowns are seen at the samples alone
+  if (settings.allowed_error && !settings.further.svf_total) return 0.0;
   return std::max(has_rays ? sampling_error(settings.rays) : 0.0, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
 }
 
@@ -59,7 +60,7 @@ Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_t
       directions(s.weight, s.rays, p.grid().rotation, s.directions, stop),
       further(s.further, s.azimuths, p.manifest()),
       city(std::move(c)) {
-  FARLOD_EXPECTS(!s.max_far_error || s.engine == Engine::exact || s.engine == Engine::near_only ||
+  FARLOD_EXPECTS(!s.allowed_error || s.engine == Engine::exact || s.engine == Engine::near_only ||
                  !p.manifest().far_map.is_box());
 }
 

@@ -48,8 +48,10 @@ struct Evaluation {
   City city;
   std::unique_ptr<EvaluationCounter> counter = std::make_unique<EvaluationCounter>();
 
+  /// Whether bounds of the true values are asked for.
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
-    return !answers.low.empty() || settings.max_far_error.has_value() || settings.further.svf_total_bounds;
+    return !settings.bounds_of_same_rays &&
+           (!answers.low.empty() || settings.allowed_error.has_value() || settings.further.svf_total_bounds);
   }
 };
 

@@ -92,8 +92,7 @@ SvfInterval svf_total_of(const SkyOfReceiver& sky, float lost, float most_error)
   const SvfInterval &svf = sky.svf, &drawn = sky.drawn;
   // What the profile may lack of the sky, or have too much of it, is lost or not
   const float lacking = drawn.high - drawn.estimate, too_much = drawn.estimate - drawn.low;
-  float low = svf.low - lacking, high = svf.high + too_much;
-  if (sky.is_drawn) low = std::max(low, drawn.low), high = std::min(high, drawn.high);
+  const float low = svf.low - lacking, high = svf.high + too_much;
   SvfInterval total;
   total.low = std::clamp(low - lost - most_error, 0.0F, svf.high);
   total.high = std::clamp(high - lost + most_error, total.low, svf.high);

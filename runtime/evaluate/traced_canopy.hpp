@@ -52,9 +52,8 @@ struct TracedDirections {
 
 /// The sky of a receiver without its crowns.
 struct SkyOfReceiver {
-  SvfInterval svf;       ///< as it is answered
-  SvfInterval drawn;     ///< that of the profile which the crowns are counted above
-  bool is_drawn = true;  ///< whether the answer is made of the profile, and not of rays
+  SvfInterval svf;    ///< as it is answered
+  SvfInterval drawn;  ///< that of the profile which the crowns are counted above, for its azimuths
 };
 
 /// The sky view factor with crowns, and what it certainly lies between, where the loss is that of the profile and differs from

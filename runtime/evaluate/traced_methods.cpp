@@ -7,6 +7,7 @@
 #include "evaluate/further_answers.hpp"
 #include "evaluate/sky_method.hpp"
 #include "evaluate/visibility.hpp"
+#include "horizon/exact_sky.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "scene/canopy_around.hpp"
@@ -67,6 +68,9 @@ class TracedMethod : public SkyMethod {
   }
 };
 
+/// More of them see fewer triangles each.
+constexpr std::size_t wedges_of_exact_sky = 256;
+
 class NearSceneMethod final : public TracedMethod {
  public:
   NearSceneMethod(const Evaluation& evaluation, bool has_box) : TracedMethod(evaluation), has_box_(has_box) {}
@@ -106,6 +110,7 @@ class WholeCityMethod final : public TracedMethod {
     const RayScene scene{evaluation_.city->seen_from(cell.cell)};
     const auto scene_ready = EvaluationCounter::Clock::now();
     trace(cell, scene, answers);
+    if (evaluation_.wants_bounds(answers)) store_exact_sky(cell, answers);
     if (wants_canopies()) trace_canopies(cell, scene, evaluation_.city->crowns(evaluation_.settings.further.canopy), answers);
     evaluation_.counter->add_times(start, scene_ready);
   }
@@ -113,6 +118,19 @@ class WholeCityMethod final : public TracedMethod {
   [[nodiscard]] SkyParts parts(const CellReceivers& cell, const HemisphereDirections& directions,
                                const Occluder& near) const override {
     return parts_by_rays(directions, cell.receivers.front(), near, {evaluation_.city->seen_from(cell.cell)}, evaluation_.stop);
+  }
+
+ private:
+  /// Rays of a sample know no bounds; the triangles that are seen tell the value itself.
+  void store_exact_sky(const CellReceivers& cell, const SkyAnswers& answers) const {
+    ExactSky sky(evaluation_.city->triangles());
+    for (const Receiver& r : cell.receivers) {
+      throw_if_cancelled(evaluation_.stop);
+      const Point3d place = evaluation_.city->scene_from_cell(r.p_cell, cell.cell);
+      const double share = sky.share_of_sky(wedges_of_exact_sky, place, r.normal, evaluation_.settings.weight);
+      const auto svf = static_cast<float>(std::clamp(share, 0.0, 1.0));
+      answers.store(r.index, {svf, svf, svf});
+    }
   }
 };
 

@@ -31,7 +31,7 @@ std::vector<std::vector<std::size_t>> choose_receivers(std::span<const std::size
 SkySettings reference_settings(SkySettings settings) {
   settings.engine = Engine::exact;
   settings.rays = std::max(verify_rays, settings.rays);
-  settings.max_far_error.reset();
+  settings.allowed_error.reset();
   Quantities further;
   further.svf_total = settings.further.svf_total;
   further.canopy = settings.further.canopy;

@@ -214,9 +214,12 @@ FARLOD_LANES void find_levels(SectorMinHorizon& horizon) {
   }
 }
 
+/// The azimuths that a sector's minimum is taken of: those in it, and for what lies between the azimuths the two beside it, too.
+enum class SectorAzimuths : std::uint8_t { inside, and_beside };
+
 /// The minima of one packet or several, each slopes[azimuth][receiver]. A sector without azimuths has no horizon that an edge
 /// could raise: its minimum is the largest float.
-FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, const std::uint32_t* first_of_sector,
+FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, const AzimuthView& azimuths, SectorAzimuths taken,
                                      SectorMinHorizon& horizon) {
   constexpr std::size_t sectors = SectorMinHorizon::sectors;
   // As above. NOLINTNEXTLINE(readability-container-data-pointer)
@@ -226,9 +229,13 @@ FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, cons
     Floats lowest[lane_count];
     for (std::size_t n = 0; n < lane_count; ++n) {
       lowest[n] = broadcast(std::numeric_limits<float>::max());
-      for (const float* slopes : packets)
-        for (std::size_t k = first_of_sector[first + n]; k < first_of_sector[first + n + 1]; ++k)
-          lowest[n] = min(lowest[n], load(slopes + k * lane_count));
+      const std::size_t begin = azimuths.first_of_sector[first + n], end = azimuths.first_of_sector[first + n + 1];
+      const std::size_t before = (begin == 0 ? azimuths.size : begin) - 1, after = end == azimuths.size ? 0 : end;
+      for (const float* slopes : packets) {
+        for (std::size_t k = begin; k < end; ++k) lowest[n] = min(lowest[n], load(slopes + k * lane_count));
+        if (taken == SectorAzimuths::inside) continue;
+        lowest[n] = min(lowest[n], min(load(slopes + before * lane_count), load(slopes + after * lane_count)));
+      }
     }
     store(min_lanes(lowest), minima + first);
   }

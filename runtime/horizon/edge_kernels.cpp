@@ -193,7 +193,7 @@ FARLOD_LANES void raise_horizon(const EdgeBatches& edges, const ReceiverPacket& 
   std::size_t next_update = culling == Culling::none ? never : 0, batches_apart = culling == Culling::renewed ? 2 : never;
   for (std::size_t n = 0; n < edges.batches.size(); ++n) {
     if (n >= next_update) {
-      find_sector_minima({&slopes, 1}, azimuths.first_of_sector, min_horizon);
+      find_sector_minima({&slopes, 1}, azimuths, SectorAzimuths::inside, min_horizon);
       next_update = n + batches_apart;
       batches_apart *= 2;
     }
@@ -213,15 +213,16 @@ void lower_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, c
   const bool is_upper = edges.role != EdgeRole::underside;
   // The minimum does not change while edges are drawn
   SectorMinHorizon min_horizon;
-  find_sector_minima({&min_slopes, 1}, azimuths.first_of_sector, min_horizon);
+  find_sector_minima({&min_slopes, 1}, azimuths, SectorAzimuths::inside, min_horizon);
   for (const SilhouetteEdges::Batch& batch : edges.batches)
     draw_batch(batch, is_upper, places, bounds, azimuths, &min_horizon, LowerHorizon{min_slopes, slopes});
 }
 
 void find_raising(const EdgeBatches& edges, const PacketBounds& bounds, std::span<const float* const> horizons,
-                  const AzimuthView& azimuths, std::uint16_t* raising) {
+                  const AzimuthView& azimuths, RaisingAt where, std::uint16_t* raising) {
   SectorMinHorizon min_horizon;
-  find_sector_minima(horizons, azimuths.first_of_sector, min_horizon);
+  const SectorAzimuths taken = where == RaisingAt::azimuths ? SectorAzimuths::inside : SectorAzimuths::and_beside;
+  find_sector_minima(horizons, azimuths, taken, min_horizon);
   for (const SilhouetteEdges::Batch& batch : edges.batches)
     *raising++ = static_cast<std::uint16_t>(raising_edges(reach_of(batch, bounds), min_horizon));
 }

@@ -13,6 +13,7 @@
 
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
+#include "horizon/certain_sky.hpp"
 #include "horizon/gap_rays.hpp"
 #include "horizon/horizon_jumps.hpp"
 #include "horizon/overhangs.hpp"
@@ -21,7 +22,6 @@
 #include "horizon/residual_horizon.hpp"
 #include "horizon/sky_partition.hpp"
 #include "horizon/sky_profile.hpp"
-#include "horizon/undecided_sky.hpp"
 #include "package/far_map.hpp"
 
 namespace farlod {
@@ -29,11 +29,12 @@ namespace farlod {
 /// The answers of a packet, in the order of its receivers.
 struct PacketAnswer {
   std::array<SvfInterval, ReceiverPacket::lanes> svf{};
-  /// Before rays of an AllowedFarError, and without moving towards the middle: those of the profiles that OnProfile is told.
+  /// What the profiles hold that OnProfile is told, and what the far map and gaps may change at their azimuths: with bounds
+  /// alone.
   std::array<SvfInterval, ReceiverPacket::lanes> drawn{};
-  std::uint32_t by_rays = 0;        ///< a bit for each receiver that rays were traced for
-  std::uint32_t by_gap_rays = 0;    ///< a bit for each whose gaps hold more sky than the tolerance
-  std::uint64_t retraced_rays = 0;  ///< rays that were traced because of an AllowedFarError
+  std::uint32_t by_rays = 0;         ///< a bit for each receiver that rays were traced for, or that the whole city decided
+  std::uint32_t by_gap_rays = 0;     ///< a bit for each whose gaps hold more sky than the tolerance
+  std::uint64_t decided_wedges = 0;  ///< that the whole city decided because of an AllowedError
 };
 
 /// Where the sum over the azimuths takes horizons to jump from one edge to another.
@@ -50,13 +51,6 @@ struct GapSettings {
   std::stop_token stop = {};  ///< ends the tracing of gaps with Cancelled
 };
 
-/// How far answers may be from the ends of their bounds. Where the far map and gaps leave more undecided, rays decide it.
-struct AllowedFarError {
-  double error = 0.0;
-  const WholeCityOnDemand& city;
-  Cell cell;  ///< that of the receivers
-};
-
 /// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. For
 /// receivers of one cell. docs/concepts.md, "Above a horizon" and "What is grounded, and what overhangs".
 class HorizonEngine {
@@ -65,17 +59,20 @@ class HorizonEngine {
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, const GapSettings& gaps, JumpPlaces jumps = JumpPlaces::at_edge_ends);
   /// From now on, evaluate_with_bounds keeps this error.
-  void keep(const AllowedFarError& allowed) { allowed_.emplace(allowed); }
+  void keep(const AllowedError& allowed) {
+    allowed_error_ = static_cast<float>(allowed.error);
+    certain().keep(allowed);
+  }
   /// From now on, calls `on_profile(n, profile)` for each packet when its answer is known, with its number in the call, and what
-  /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Rays that an allowed error asks
-  /// for do not change it. Only with SkyWeight::cosine, and jumps at the ends of edges.
+  /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Bounds do not change it. Only
+  /// with SkyWeight::cosine, and jumps at the ends of edges.
   using OnProfile = std::function<void(std::size_t n, SkyProfile& profile)>;
   void tell_profiles(ProfileRows rows, OnProfile on_profile);
 
   /// Computes the receivers of packets near each other; low = estimate = high. The answers do not depend on which packets are
   /// together.
   void evaluate(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers);
-  /// The same with bounds.
+  /// The same with bounds, between which the true values lie; for a sampling that CertainSky takes.
   void evaluate_with_bounds(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers);
 
  private:
@@ -94,7 +91,7 @@ class HorizonEngine {
   };
   /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
-  /// The sky in the gaps of `horizons_`, as drawn. Where an error is allowed, no gap is traced, and half of its sky counts.
+  /// The sky in the gaps of `horizons_`, as drawn.
   [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
   /// Does so for the receivers that need rays.
   void trace_sky_in_gaps(const ReceiverPacket& receivers, SkyInGaps& gaps);
@@ -102,23 +99,12 @@ class HorizonEngine {
   void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   void profile_gaps(const ReceiverPacket& receivers);
 
-  /// The sky of a packet's receivers and its bounds, before jumps are placed in these.
-  struct BoundedSky {
-    HorizonJumps::SkyAbove estimate;
-    SkyInGaps gaps;
-    Lanes low, high;
-
-    /// The interval of a lane, with its jumps where they are.
-    [[nodiscard]] SvfInterval interval(std::size_t lane) const;
+  /// The sky at the azimuths of a profile, at least and at most; of horizons without the residual.
+  struct SkyAtAzimuths {
+    Lanes low{}, high{};
   };
-  [[nodiscard]] BoundedSky bounded_without_overhangs(const ReceiverPacket& receivers);
-  [[nodiscard]] BoundedSky bounded_with_overhangs(const ReceiverPacket& receivers, std::uint32_t below);
-  /// Traces the sky of receivers whose bounds are too far apart. Returns the number of rays and a bit for each.
-  struct Retraced {
-    std::uint32_t receivers = 0;
-    std::uint64_t rays = 0;
-  };
-  Retraced retrace(const ReceiverPacket& receivers, bool has_overhangs, BoundedSky& sky);
+  [[nodiscard]] SkyAtAzimuths bounds_at_azimuths(const ReceiverPacket& receivers, std::uint32_t below);
+  CertainSky& certain();
 
   const AzimuthSampling& azimuths_;
   SkyWeight weight_;
@@ -126,7 +112,7 @@ class HorizonEngine {
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
   JumpPlaces jump_places_;
-  std::optional<AllowedFarError> allowed_;
+  float allowed_error_ = 1.0F;
   std::optional<SkyProfile> profile_;  ///< if somebody wants to know
   OnProfile on_profile_;
   ProfileRows profile_rows_ = ProfileRows::sky;
@@ -137,10 +123,10 @@ class HorizonEngine {
   std::vector<PacketHorizon> grounded_;  ///< of each packet
   CellOverhangs in_sight_;               ///< overhangs that may rise above some of them
   OverhangHorizons horizons_;
-  PacketHorizon without_residual_;
-  UndecidedSky undecided_;
-  std::vector<PacketHorizon::Row> gap_rows_, most_gap_rows_, seen_rows_, all_gap_rows_;
-  std::span<const PacketHorizon::Row> sky_of_gaps_, most_sky_of_gaps_;  ///< in these; empty without gaps
+  std::vector<PacketHorizon::Row> gap_rows_, seen_rows_, all_gap_rows_;
+  std::span<const PacketHorizon::Row> sky_of_gaps_;  ///< in these; empty without gaps
+  Lanes corrections_{};                              ///< of the estimate, by its jumps
+  std::optional<CertainSky> certain_;                ///< once somebody asks for bounds
 };
 
 }  // namespace farlod

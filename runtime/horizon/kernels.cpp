@@ -4,13 +4,17 @@
 
 #include <vector>
 
+#include "horizon/wedge_kernels.hpp"
+
 namespace farlod {
 
 // What CMakeLists.txt compiles for each target
-#define FARLOD_DECLARE_TARGET(target)    \
-  namespace target {                     \
-  extern const EdgeKernels edge_kernels; \
-  extern const SkyKernels sky_kernels;   \
+#define FARLOD_DECLARE_TARGET(target)             \
+  namespace target {                              \
+  extern const EdgeKernels edge_kernels;          \
+  extern const SkyKernels sky_kernels;            \
+  extern const WedgeEndKernels wedge_end_kernels; \
+  extern const WedgeSkyKernels wedge_sky_kernels; \
   }
 FARLOD_DECLARE_TARGET(baseline)
 #ifdef FARLOD_X86_TARGETS
@@ -33,10 +37,14 @@ bool runs_avx512() {
 std::vector<KernelTarget> find_runnable_kernels() {
   std::vector<KernelTarget> targets;
 #ifdef FARLOD_X86_TARGETS
-  if (runs_avx512()) targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels});
-  if (runs_avx2()) targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels});
+  if (runs_avx512())
+    targets.push_back(
+        {"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::wedge_end_kernels, &avx512::wedge_sky_kernels});
+  if (runs_avx2())
+    targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::wedge_end_kernels, &avx2::wedge_sky_kernels});
 #endif
-  targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels});
+  targets.push_back(
+      {"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels});
   return targets;
 }
 
@@ -54,6 +62,16 @@ const EdgeKernels& edge_kernels() {
 
 const SkyKernels& sky_kernels() {
   static const SkyKernels& fastest = *runnable_kernels().front().sky;
+  return fastest;
+}
+
+const WedgeEndKernels& wedge_end_kernels() {
+  static const WedgeEndKernels& fastest = *runnable_kernels().front().wedge_end;
+  return fastest;
+}
+
+const WedgeSkyKernels& wedge_sky_kernels() {
+  static const WedgeSkyKernels& fastest = *runnable_kernels().front().wedge_sky;
   return fastest;
 }
 

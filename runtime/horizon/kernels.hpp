@@ -32,6 +32,9 @@ enum class Culling : std::uint8_t {
   renewed  ///< again and again: edges come from near to far
 };
 
+/// Where an edge may rise above a horizon: at the azimuths; or also between two, above the lower one of both horizons.
+enum class RaisingAt : std::uint8_t { azimuths, wedges };
+
 struct EdgeKernels {
   /// For each edge its distance in the plan from the centre of a box of receivers, or −1 if it can be a silhouette for none of
   /// them: may_be_silhouette (package/horizon_edge.hpp) and a test of its height, in floats.
@@ -43,7 +46,7 @@ struct EdgeKernels {
   /// batch, raising[batch]. An edge that is not among them raises none. Bits of lanes without an edge mean
   /// nothing.
   void (*find_raising)(const EdgeBatches& edges, const PacketBounds& bounds, std::span<const float* const> horizons,
-                       const AzimuthView& azimuths, std::uint16_t* raising);
+                       const AzimuthView& azimuths, RaisingAt where, std::uint16_t* raising);
   /// Raises horizons to edges: slopes = max(slopes, slope of each edge where a receiver sees it). Where that raises a slope,
   /// numbers[azimuth][receiver] becomes that of the edge; `numbers` may be null.
   void (*raise_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
@@ -121,11 +124,16 @@ struct SkyKernels {
                           float* slopes);
 };
 
+struct WedgeEndKernels;
+struct WedgeSkyKernels;
+
 /// All kernels, compiled for one target.
 struct KernelTarget {
   const char* name;
   const EdgeKernels* edge;
   const SkyKernels* sky;
+  const WedgeEndKernels* wedge_end;
+  const WedgeSkyKernels* wedge_sky;
 };
 
 /// The targets that this processor can run, the fastest first; the last one is `baseline`, which any can.
@@ -134,5 +142,7 @@ struct KernelTarget {
 /// The fastest of them.
 [[nodiscard]] const EdgeKernels& edge_kernels();
 [[nodiscard]] const SkyKernels& sky_kernels();
+[[nodiscard]] const WedgeEndKernels& wedge_end_kernels();
+[[nodiscard]] const WedgeSkyKernels& wedge_sky_kernels();
 
 }  // namespace farlod

@@ -65,6 +65,7 @@ struct Vector {
   FARLOD_OPERATOR(Mask, <)
   FARLOD_OPERATOR(Mask, >)
   FARLOD_OPERATOR(Mask, >=)
+  FARLOD_OPERATOR(Mask, <=)
   FARLOD_OPERATOR(Mask, ==)
 #undef FARLOD_OPERATOR
   FARLOD_LANES Vector operator-() const {

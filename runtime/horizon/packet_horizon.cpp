@@ -148,12 +148,12 @@ void PacketGroup::raise(const SilhouetteEdges& edges, std::span<const ReceiverPa
   // The packet in the middle goes first: most of what it sees in the end, the others see too
   const std::size_t middle = packets.size() / 2;
   horizons[middle].raise(edges, packets[middle], bounds_[middle], Culling::renewed);
-  find_raising(edges, bounds_[middle], horizons.subspan(middle, 1), first_);
+  find_raising(edges, bounds_[middle], horizons.subspan(middle, 1), RaisingAt::azimuths, first_);
   drawn_.assign(edges, first_);
   for (std::size_t n = 0; n < packets.size(); ++n)
     if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::none);
   // Then those of the other edges that may rise above some of the horizons that this gave
-  find_raising(edges, joined(bounds_), horizons, others_);
+  find_raising(edges, joined(bounds_), horizons, RaisingAt::azimuths, others_);
   for (std::size_t batch = 0; batch < others_.size(); ++batch) others_[batch] &= static_cast<std::uint16_t>(~first_[batch]);
   drawn_.assign(edges, others_);
   for (std::size_t n = 0; n < packets.size(); ++n)
@@ -161,22 +161,22 @@ void PacketGroup::raise(const SilhouetteEdges& edges, std::span<const ReceiverPa
 }
 
 void PacketGroup::keep_raising(const SilhouetteEdges& edges, std::span<const ReceiverPacket> packets,
-                               std::span<const PacketHorizon> horizons, SilhouetteEdges& kept) {
+                               std::span<const PacketHorizon> horizons, RaisingAt where, SilhouetteEdges& kept) {
   others_.clear();
   if (!edges.empty()) {
     bounds_.clear();
     for (const ReceiverPacket& packet : packets) bounds_.push_back(bounds_of(packet));
-    find_raising(edges, joined(bounds_), horizons, others_);
+    find_raising(edges, joined(bounds_), horizons, where, others_);
   }
   kept.assign(edges, others_);
 }
 
 void PacketGroup::find_raising(const SilhouetteEdges& edges, const PacketBounds& bounds, std::span<const PacketHorizon> horizons,
-                               std::vector<std::uint16_t>& raising) {
+                               RaisingAt where, std::vector<std::uint16_t>& raising) {
   slopes_.clear();
   for (const PacketHorizon& horizon : horizons) slopes_.push_back(horizon.slopes());
   raising.resize(edges.batches().size());
-  edge_kernels().find_raising({edges.batches(), edges.role()}, bounds, slopes_, azimuths_.view(), raising.data());
+  edge_kernels().find_raising({edges.batches(), edges.role()}, bounds, slopes_, azimuths_.view(), where, raising.data());
 }
 
 }  // namespace farlod

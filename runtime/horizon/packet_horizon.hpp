@@ -66,6 +66,8 @@ class PacketHorizon {
   /// The number of the edge (SilhouetteEdges::number) that a horizon belongs to; −1 if it is that of a far map, or level. Of
   /// horizons that track their edges, and that were raised since then by edges and estimates alone.
   [[nodiscard]] std::int32_t edge_number(std::size_t azimuth, std::size_t lane) const { return numbers_[azimuth][lane]; }
+  /// The edge numbers of all, as kernels.hpp has them.
+  [[nodiscard]] const std::int32_t* numbers() const { return numbers_.front().data(); }
   /// Where horizons that track their edges go from one edge to another, and the sky of the azimuths changes by more than `least`.
   /// Room for one at each azimuth; returns those that there are.
   [[nodiscard]] std::span<const SkyJump> find_jumps(std::span<const Row> sky_of_azimuths, float least,
@@ -124,12 +126,12 @@ class PacketGroup {
   /// Makes `kept` the edges that may rise above one of these horizons, drawn for these packets: the others raise none of them,
   /// and none that is higher.
   void keep_raising(const SilhouetteEdges& edges, std::span<const ReceiverPacket> packets,
-                    std::span<const PacketHorizon> horizons, SilhouetteEdges& kept);
+                    std::span<const PacketHorizon> horizons, RaisingAt where, SilhouetteEdges& kept);
 
  private:
   /// Finds the edges that may raise one of these horizons, of receivers within these bounds.
   void find_raising(const SilhouetteEdges& edges, const PacketBounds& bounds, std::span<const PacketHorizon> horizons,
-                    std::vector<std::uint16_t>& raising);
+                    RaisingAt where, std::vector<std::uint16_t>& raising);
 
   const AzimuthSampling& azimuths_;
   // Working memory, kept from group to group

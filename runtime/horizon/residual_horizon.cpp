@@ -56,6 +56,53 @@ void ResidualHorizon::raise_to_high(const ReceiverPacket& r, PacketHorizon& hori
                  [&](Patch patch, const PacketHorizon::Lanes& caps) { horizon.raise(high_row(patch), caps, bin_of_azimuth_); });
 }
 
+void ResidualHorizon::find_in_wedges(const ReceiverPacket& r, InWedges& rows) const {
+  std::array<Patch, ReceiverPacket::lanes> patches;
+  for (std::size_t l = 0; l < patches.size(); ++l) patches[l] = patch_of(r, l);
+  const std::size_t count = bin_of_azimuth_.size();
+  if (rows.least.size() == count && rows.patches == patches) return;
+  rows.patches = patches;
+  for (auto* all : {&rows.least, &rows.most, &rows.overhang.rows}) all->resize(count);
+  const auto lower = [](float a, float b) { return std::min(a, b); };
+  const auto higher = [](float a, float b) { return std::max(a, b); };
+  for_each_patch([&](std::size_t lane) { return patches[lane]; },
+                 [&](Patch patch, const PacketHorizon::Lanes& caps) {
+                   fill_wedges(low_row(patch), caps, lower, rows.least);
+                   fill_wedges(high_row(patch), caps, higher, rows.most);
+                   fill_wedges(overhang_row(patch), caps, higher, rows.overhang.rows);
+                 });
+  rows.overhang_below_low.rows = rows.overhang.rows;
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+      float& border = rows.overhang_below_low.rows[k][l];
+      border = std::min(border, rows.least[k][l]);
+    }
+  for (InWedges::Borders* borders : {&rows.overhang, &rows.overhang_below_low}) find_reached(*borders);
+}
+
+void ResidualHorizon::find_reached(InWedges::Borders& borders) {
+  borders.reached.assign(borders.rows.size(), 0);
+  for (std::size_t k = 0; k < borders.rows.size(); ++k)
+    for (const float slope : borders.rows[k])
+      if (slope > 0.0F) borders.reached[k] = 1;
+}
+
+template <class Choose>
+void ResidualHorizon::fill_wedges(std::span<const float> row, const PacketHorizon::Lanes& caps, const Choose& choose,
+                                  std::vector<PacketHorizon::Row>& wedges) const {
+  for (std::size_t k = 0; k < wedges.size(); ++k) {
+    std::uint32_t bin = bin_of_azimuth_[k];
+    const std::uint32_t last = bin_of_azimuth_[k + 1 < wedges.size() ? k + 1 : 0];
+    float chosen = row[bin];
+    while (bin != last) {
+      bin = bin + 1 < row.size() ? bin + 1 : 0;
+      chosen = choose(chosen, row[bin]);
+    }
+    for (std::size_t l = 0; l < caps.size(); ++l)
+      if (caps[l] > 0.0F) wedges[k][l] = chosen;
+  }
+}
+
 void ResidualHorizon::raise_to_overhang(const ReceiverPacket& r, PacketHorizon& horizon) const {
   if (is_grounded_) return;
   for_each_patch(

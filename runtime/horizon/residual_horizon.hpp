@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,12 +26,30 @@ class ResidualHorizon {
   void raise_to_low(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_to_estimate(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_to_high(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
+  /// Rows of wedges (wedge_kernels.hpp): the low bound of all their bins, their high bound, and that of lower borders: all, and
+  /// those below the low bound.
+  struct InWedges {
+    std::vector<PacketHorizon::Row> least, most;
+    struct Borders {
+      std::vector<PacketHorizon::Row> rows;
+      std::vector<std::uint8_t> reached;  ///< whether there is one for any receiver
+    };
+    Borders overhang, overhang_below_low;
+    std::array<std::optional<std::uint32_t>, ReceiverPacket::lanes> patches;  ///< that these are of
+  };
+  /// Rows of an earlier call are kept where they are right.
+  void find_in_wedges(const ReceiverPacket& receivers, InWedges& rows) const;
   /// Nothing in the residual city overhangs.
   [[nodiscard]] bool is_grounded() const { return is_grounded_; }
   /// To the upper bound of the residual's lower borders: below it, sky may be seen under an overhang.
   void raise_to_overhang(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
 
  private:
+  static void find_reached(InWedges::Borders& borders);
+  /// Sets each wedge of the receivers with caps to the chosen slope of its bins.
+  template <class Choose>
+  void fill_wedges(std::span<const float> row, const PacketHorizon::Lanes& caps, const Choose& choose,
+                   std::vector<PacketHorizon::Row>& wedges) const;
   using Patch = std::optional<std::uint32_t>;
   [[nodiscard]] Patch patch_of(const ReceiverPacket& receivers, std::size_t lane) const;
   /// The same, but the lowest patch for receivers below it.

@@ -98,12 +98,13 @@ void BorderEnds::join_places() {
   const std::size_t mask = table.size() - 1;
   for (std::uint32_t n = 0; n < ends_.size(); ++n) {
     ends_[n].next = n;
+    places_.push_back(n);
     std::size_t slot = mixed(ends_[n].p) & mask;
     while (table[slot] != none && ends_[table[slot]].p != ends_[n].p) slot = (slot + 1) & mask;
-    if (table[slot] == none)
-      table[slot] = n;
-    else
-      std::swap(ends_[n].next, ends_[table[slot]].next);
+    if (table[slot] == none) table[slot] = n;
+    // A swap with itself leaves the first one alone
+    std::swap(ends_[n].next, ends_[table[slot]].next);
+    places_[n] = table[slot];
   }
 }
 

@@ -115,11 +115,14 @@ class BorderEnds {
 
   [[nodiscard]] const End& end(std::size_t n) const { return ends_[n]; }
   [[nodiscard]] std::size_t size() const { return ends_.size(); }
+  /// For each end the least number of an end at its place.
+  [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
 
  private:
   void join_places();
 
   std::vector<End> ends_;
+  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace farlod

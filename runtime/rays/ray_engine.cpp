@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rays/ray_engine.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "base/expects.hpp"
@@ -96,30 +94,6 @@ void RayEngine::trace_gaps() {
     const std::uint32_t free = wanted & ~scene.occluder.blocked(origins, directions_.direction(k), least_distance_m, wanted);
     if (free != 0) gap_rays_.push_back({k, free & estimate, free & high});
   }
-}
-
-std::uint64_t RayEngine::retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t uncertain,
-                                 std::span<FreeRays> free) const {
-  FARLOD_EXPECTS(wants_bounds_);
-  // Count anew from the low count: rays above `for_low_` are free for certain
-  std::uint64_t rays = 0;
-  auto gap_ray = gap_rays_.begin();
-  for (std::size_t l = 0; l < free.size(); ++l)
-    if ((uncertain & bit_of(l)) != 0) free[l].high = free[l].low;
-  for (std::uint32_t k = 0; k < directions_.size(); ++k) {
-    look_for_stop(k);
-    const float slope = directions_.slopes()[k];
-    // Trace the rays between the horizons of both bounds, and those in gaps
-    const bool is_gap_ray = gap_ray != gap_rays_.end() && gap_ray->azimuth == k;
-    const std::uint32_t in_gap = is_gap_ray ? (gap_ray++)->high : 0;
-    const std::uint32_t wanted = ((for_high_.upper_borders.below(k, slope) & ~for_low_.below(k, slope)) | in_gap) & uncertain;
-    rays += static_cast<std::uint64_t>(std::popcount(wanted));
-    const std::uint32_t is_free = wanted & ~city.blocked(origins, directions_.direction(k), least_distance_m, wanted);
-    for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (is_free & bit_of(l)) != 0 ? 1U : 0U;
-  }
-  for (std::size_t l = 0; l < free.size(); ++l)
-    if ((uncertain & bit_of(l)) != 0) free[l].low = free[l].estimate = free[l].high;
-  return rays;
 }
 
 }  // namespace farlod

@@ -20,7 +20,7 @@
 
 namespace farlod {
 
-/// How many of a receiver's rays reach the sky: the estimate, and its bounds.
+/// How many of a receiver's rays reach the sky: the estimate, and what the far map may change of it.
 struct FreeRays {
   std::uint32_t low = 0, estimate = 0, high = 0;
 };
@@ -30,18 +30,12 @@ struct FreeRays {
 class RayEngine {
  public:
   /// All must outlive it. For receivers of one cell. Without `wants_bounds`, low = high = estimate.
-  /// When `stop` is asked for, count() and retrace() end with Cancelled.
+  /// When `stop` is asked for, count() ends with Cancelled.
   RayEngine(const DirectionSampling& directions, const FarHorizon& far, const CellSilhouettes& silhouettes,
             OverhangGeometry& overhangs, bool wants_bounds, std::stop_token stop = {});
 
   /// For up to ReceiverPacket::lanes receivers.
   [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
-
-  /// For the receivers of the last count with bits in `uncertain`: traces the rays that the far map does not decide, against the
-  /// whole city, so that low = estimate = high. `origins` are the same receivers in the frame of `city`. Needs `wants_bounds`.
-  /// Returns the number of rays.
-  [[nodiscard]] std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t uncertain,
-                                      std::span<FreeRays> free) const;
 
  private:
   void draw_horizons(std::span<const Receiver> receivers);

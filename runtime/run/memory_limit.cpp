@@ -19,10 +19,11 @@ namespace {
 constexpr double mib = 1 << 20;
 
 // Measured on Debian 12, and rounded up
-constexpr double program_bytes = 80 * mib;  // the program and its libraries, before there is a cell
-constexpr double thread_bytes = 12 * mib;   // scenes of cells, and what the allocator keeps for the next
-constexpr double receiver_bytes = 128;      // a receiver on its way, with its answers
-constexpr double triangle_bytes = 224;      // of the whole city's scene: the triangle, its corners, Embree's tree
+constexpr double program_bytes = 80 * mib;    // the program and its libraries, before there is a cell
+constexpr double thread_bytes = 12 * mib;     // scenes of cells, and what the allocator keeps for the next
+constexpr double receiver_bytes = 128;        // a receiver on its way, with its answers
+constexpr double triangle_bytes = 224;        // of the whole city's scene: the triangle, its corners, Embree's tree
+constexpr double exact_triangle_bytes = 100;  // of the TriangleIndex: its corners, and a sixth of a node
 
 constexpr double crown_bytes = 160;        // of the scene of all crowns, beside the file: the crown, and Embree's tree
 constexpr double canopy_bytes = 16 * mib;  // crowns around a cell, those far away merged
@@ -31,13 +32,13 @@ constexpr double named_crown_bytes = 100;  // of one in CrownsOfCell, where an e
 // A sample of the sky takes: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
 constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // HorizonEngine
-constexpr double undecided_azimuth_bytes = 20 + 4 * 64;               // what UndecidedSky adds where an error is allowed
+constexpr double bounds_azimuth_bytes = 500 + 15 * 64;                // CertainSky
 /// What further quantities add: profiles of a group of packets, and rows that are made of them.
 constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
-  return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.max_far_error.has_value() ||
+  return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.allowed_error.has_value() ||
          settings.sky.further.horizon_distances;
 }
 
@@ -46,7 +47,7 @@ bool uses_crowns(const package::Manifest& manifest, const ResolvedSettings& sett
 }
 
 double bytes_of_canopies(const package::Manifest& manifest, const ResolvedSettings& settings) {
-  if (!settings.sky.further.svf_total || !settings.sky.max_far_error) return canopy_bytes;
+  if (!settings.sky.further.svf_total || !settings.sky.allowed_error) return canopy_bytes;
   return canopy_bytes +
          named_crown_bytes * static_cast<double>(std::min<std::uint64_t>(manifest.canopy->crowns(), most_crowns_by_name));
 }
@@ -59,10 +60,11 @@ double bytes_of_directions(std::size_t rays, std::size_t threads) {
 /// What grows with the numbers of azimuths and rays.
 double bytes_of_samples(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const SkySettings& sky = settings.sky;
-  const bool has_horizon_maps = !manifest.far_map.is_box();
-  const bool by_horizons = has_horizon_maps && (sky.engine == Engine::automatic || sky.engine == Engine::horizon);
+  const bool has_horizon_maps = !manifest.far_map.is_box(), wants_bounds = settings.bounds || sky.allowed_error;
+  const bool by_horizons = has_horizon_maps && (sky.engine == Engine::automatic || sky.engine == Engine::horizon ||
+                                                (sky.engine == Engine::rays && wants_bounds));
   const bool by_ray_horizons = has_horizon_maps && sky.engine == Engine::rays;
-  const double of_azimuth = azimuth_bytes + (sky.max_far_error ? undecided_azimuth_bytes : 0.0);
+  const double of_azimuth = azimuth_bytes + (wants_bounds ? bounds_azimuth_bytes : 0.0);
   const double of_profiles = sky.further.any() ? profile_azimuth_bytes * static_cast<double>(sky.azimuths) : 0.0;
   const double of_thread = of_profiles + (by_horizons ? of_azimuth * static_cast<double>(sky.azimuths) : 0.0) +
                            (by_ray_horizons ? ray_azimuth_bytes * static_cast<double>(sky.rays) : 0.0);
@@ -75,7 +77,8 @@ double crowns_of(const package::Manifest& manifest) { return static_cast<double>
 double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const std::size_t rays = settings.verify > 0 ? std::max(verify_rays, settings.sky.rays) : 0;
   const double of_crowns = uses_crowns(manifest, settings) ? (sizeof(Crown) + crown_bytes) * crowns_of(manifest) : 0.0;
-  return static_cast<double>(manifest.triangles) * triangle_bytes + bytes_of_directions(rays, settings.threads) + of_crowns;
+  const double of_triangle = triangle_bytes + (settings.bounds || settings.sky.allowed_error ? exact_triangle_bytes : 0.0);
+  return static_cast<double>(manifest.triangles) * of_triangle + bytes_of_directions(rays, settings.threads) + of_crowns;
 }
 
 std::string in_mib(double bytes) { return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mib))); }

@@ -125,7 +125,7 @@ void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
 }
 
 void require_bounds_known(const PackageInUse& package, const ResolvedSettings& settings) {
-  const bool asks = settings.bounds || settings.sky.max_far_error;
+  const bool asks = settings.bounds || settings.sky.allowed_error;
   if (!asks || settings.sky.engine == Engine::exact || !package.reader().manifest().far_map.is_box()) return;
   throw PackageUnusable(
       package.folder().string() +

@@ -10,14 +10,16 @@
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "farlod/error.hpp"
+#include "horizon/packet_envelope.hpp"
 #include "receivers/point_receivers.hpp"
 
 namespace farlod {
 namespace {
 
-/// The share of an allowed error for the sky between the samples; the rest is for the far map. What the far map leaves undecided
-/// costs rays for some receivers, azimuths cost all of them (docs/decisions/0019-halved-intervals.md).
+/// The share of an allowed error of svf_total for what is between the samples; the rest is for the far map and merged crowns.
 constexpr double sampling_share = 0.75;
+
+constexpr std::size_t least_azimuths_of_bounds = PacketEnvelope::least_azimuths;
 
 void check(const CanopySettings& canopy) {
   require_one_of("further.canopy.rule", canopy.rule, CanopyRule::beer);
@@ -55,23 +57,27 @@ void check(const EvaluationSettings& s) {
   if (s.further.svf_total_bounds && !(s.further.svf_total && s.bounds))
     throw InvalidArgument(
         "further.svf_total_bounds are those of svf_total, beside those of svf: ask for svf_total and for bounds, too");
+  if (s.azimuths && *s.azimuths < least_azimuths_of_bounds && (s.bounds || s.max_error))
+    throw InvalidArgument("bounds and errors need at least " + std::to_string(least_azimuths_of_bounds) +
+                          " azimuths: give more, or leave their number out");
   if (s.engine == Engine::near_only && (s.bounds || s.max_error))
     throw InvalidArgument(
         "the engine near_only leaves the far city out, of which it knows neither bounds nor errors: leave bounds and max_error "
         "out, or choose another engine");
 }
 
-/// What is left of the allowed error for the far map.
-double far_error_of(const EvaluationSettings& s, SkySettings sky) {
+/// What is left of the allowed error beside the samples.
+double error_beside_samples(const EvaluationSettings& s, SkySettings sky) {
   // That there is one decides whether the error of rays counts; how large it is follows from that
-  sky.max_far_error = *s.max_error;
+  sky.allowed_error = *s.max_error;
   const double left = *s.max_error - sampling_error_of(sky);
   if (left > 0.0) return left;
   const double share = sampling_share * *s.max_error;
-  throw InvalidArgument(
-      "a largest error of " + setting_text(*s.max_error) + " is less than " + std::to_string(sky.rays) + " rays and " +
-      std::to_string(sky.azimuths) + " azimuths can keep: leave the numbers of rays and azimuths out, or give at least " +
-      std::to_string(rays_for_sampling_error(share)) + " rays and " + std::to_string(azimuths_for_error(share)) + " azimuths");
+  throw InvalidArgument("a largest error of " + setting_text(*s.max_error) + " of svf_total is less than " +
+                        std::to_string(sky.rays) + " rays and " + std::to_string(sky.azimuths) +
+                        " azimuths can keep: leave the numbers of rays and azimuths out, or give at least " +
+                        std::to_string(rays_for_sampling_error(share)) + " rays and " +
+                        std::to_string(azimuths_for_error(share)) + " azimuths");
 }
 
 SkySettings sky_of(const EvaluationSettings& s) {
@@ -79,12 +85,16 @@ SkySettings sky_of(const EvaluationSettings& s) {
   sky.engine = s.engine;
   sky.weight = s.weight;
   sky.directions = s.directions;
-  const double sampling = s.max_error ? sampling_share * *s.max_error : 0.0;
-  sky.rays = s.rays ? *s.rays : s.max_error ? rays_for_sampling_error(sampling) : default_rays;
-  sky.azimuths = s.azimuths ? *s.azimuths : s.max_error ? azimuths_for_error(sampling) : default_azimuths;
+  // Crowns are seen at the samples; all else lies within bounds, whatever the samples are
+  const bool by_samples = s.max_error && s.further.svf_total;
+  const double sampling = by_samples ? sampling_share * *s.max_error : 0.0;
+  sky.rays = s.rays ? *s.rays : by_samples ? rays_for_sampling_error(sampling) : default_rays;
+  sky.azimuths = s.azimuths   ? *s.azimuths
+                 : by_samples ? std::max(least_azimuths_of_bounds, azimuths_for_error(sampling))
+                              : default_azimuths;
   sky.azimuths = azimuths_for(s.further, sky.azimuths);
   sky.further = s.further;
-  if (s.max_error) sky.max_far_error = far_error_of(s, sky);
+  if (s.max_error) sky.allowed_error = error_beside_samples(s, sky);
   return sky;
 }
 
@@ -105,7 +115,7 @@ ResolvedSettings resolved(const EvaluationSettings& evaluation, const RunSetting
   require_usable_shard(run);
   ResolvedSettings s;
   s.sky = sky_of(evaluation);
-  s.accuracy = {s.sky.azimuths, s.sky.rays, sampling_error_of(s.sky), s.sky.max_far_error};
+  s.accuracy = {s.sky.azimuths, s.sky.rays, sampling_error_of(s.sky), s.sky.allowed_error};
   s.bounds = evaluation.bounds;
   s.verify = evaluation.verify;
   s.dry_run = evaluation.dry_run;

@@ -231,7 +231,7 @@ TEST_P(Canopies, KeepAnErrorThatIsAllowed) {
   const Columns exact = columns_of_receivers(package, settings(Engine::exact, many_rays), places);
   SkySettings with_error = settings(Engine::automatic, rays_for_sampling_error(of_samples));
   with_error.azimuths = azimuths_for_error(of_samples);
-  with_error.max_far_error = of_far;
+  with_error.allowed_error = of_far;
   with_error.further.svf_total_bounds = true;
   const Columns kept = columns_of_receivers(package, with_error, places);
   const ErrorSummary errors = summarize_errors(kept.at("svf_total"), exact.at("svf_total"));

@@ -262,9 +262,8 @@ TEST_F(Answers, SayWhatTheSettingsCameTo) {
   settings.verify = 20;
   const Raster raster = evaluate_raster(package_, plan_raster(package_, 8.0), {}, settings);
   const Accuracy& accuracy = raster.summary.accuracy;
-  EXPECT_LE(accuracy.sampling_error, 0.0075 + arithmetic_error);
-  ASSERT_TRUE(accuracy.far_error_allowed);
-  EXPECT_NEAR(accuracy.sampling_error + *accuracy.far_error_allowed, 0.01, arithmetic_error);
+  EXPECT_EQ(accuracy.sampling_error, 0.0);
+  EXPECT_EQ(accuracy.far_error_allowed, 0.01);
   ASSERT_TRUE(raster.summary.errors);
   EXPECT_EQ(raster.summary.errors->count, 20U);
   EXPECT_LE(raster.summary.errors->max_abs_error, 0.01);

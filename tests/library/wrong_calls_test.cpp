@@ -75,6 +75,11 @@ void add_settings(Cases& cases) {
   cases.add(all, "an error that so few rays cannot keep", [](Arguments& a) {
     a.settings.max_error = 0.001;
     a.settings.rays = 10;
+    a.settings.further.svf_total = true;
+  });
+  cases.add(all, "bounds with few azimuths", [](Arguments& a) {
+    a.settings.azimuths = 7;
+    a.settings.bounds = true;
   });
   cases.add(all, "bounds without the far city", [](Arguments& a) {
     a.settings.engine = Engine::near_only;

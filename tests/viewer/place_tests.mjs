@@ -50,8 +50,12 @@ async function expectAnswerShown(page, asked) {
   const answer = await answerTo(lastOf(asked, "at"));
   expectEqual(await page.textContent("#value"), answer.text, "the value shown");
   const bounds = await page.textContent("#bounds");
-  const digits = answer.text.split(".")[1].length, [low, high] = [answer.low.toFixed(digits), answer.high.toFixed(digits)];
-  expectEqual(bounds, low === high ? "certain to the last digit" : `between ${low} and ${high}`, "the bounds shown");
+  const digits = answer.text.split(".")[1].length, unit = 10 ** -digits;
+  const [least, most] = bounds.startsWith("between ") ? bounds.slice("between ".length).split(" and ").map(Number) : [NaN, NaN];
+  const isCertain = answer.low.toFixed(digits) === answer.high.toFixed(digits), slack = 1e-9;
+  expectEqual(bounds === "certain to the last digit", isCertain, "the bounds shown");
+  const holds = least <= answer.low + slack && answer.low < least + unit + slack && most >= answer.high - slack && answer.high > most - unit - slack;
+  expectEqual(holds, !isCertain, "the bounds shown hold the answer's");
   return answer;
 }
 

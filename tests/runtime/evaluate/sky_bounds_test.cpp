@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "evaluate/error_budget.hpp"
 #include "evaluate/sky_evaluator.hpp"
+#include "horizon/certain_sky.hpp"
 #include "receivers/point_receivers.hpp"
 #include "receivers/receiver.hpp"
 #include "tests/scenes/generated_town.hpp"
@@ -95,8 +95,11 @@ class SkyBounds : public testing::TestWithParam<Town> {
     return static_cast<float>(low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53);
   }
 
-  [[nodiscard]] Answers answers(Engine engine, std::optional<double> max_far_error = std::nullopt) const {
-    const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, bounded_rays, max_far_error});
+  [[nodiscard]] Answers answers(Engine engine, std::optional<double> allowed_error = std::nullopt,
+                                bool of_same_rays = false) const {
+    SkySettings settings{engine, SkyWeight::cosine, bounded_rays, allowed_error};
+    settings.bounds_of_same_rays = of_same_rays;
+    const SkyEvaluator evaluator(package_, settings);
     Answers a{std::vector<float>(count_), std::vector<float>(count_), std::vector<float>(count_)};
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, SkyAnswers(a.svf, a.low, a.high));
     return a;
@@ -109,12 +112,12 @@ class SkyBounds : public testing::TestWithParam<Town> {
   std::vector<CellReceivers> places_;
 };
 
-/// Bounds are in order, and hold the exact answers but for an error. Returns how wide the widest are.
-double expect_held(const Answers& bounded, const Answers& exact, double error) {
+/// Bounds are in order, and hold the true values. Returns how wide the widest are.
+double expect_held(const Answers& bounded, const Answers& exact) {
   double widest = 0.0;
   for (std::size_t n = 0; n < exact.svf.size(); ++n) {
-    EXPECT_LE(bounded.low[n], exact.svf[n] + error) << "receiver " << n;
-    EXPECT_GE(bounded.high[n], exact.svf[n] - error) << "receiver " << n;
+    EXPECT_LE(bounded.low[n], exact.svf[n]) << "receiver " << n;
+    EXPECT_GE(bounded.high[n], exact.svf[n]) << "receiver " << n;
     EXPECT_LE(bounded.low[n], bounded.svf[n]);
     EXPECT_LE(bounded.svf[n], bounded.high[n]);
     widest = std::max<double>(widest, bounded.high[n] - bounded.low[n]);
@@ -122,68 +125,65 @@ double expect_held(const Answers& bounded, const Answers& exact, double error) {
   return widest;
 }
 
-/// What horizons and the exact rays may differ by where all is certain: both look at parts of the sky only.
-constexpr std::size_t bounded_azimuths = 256;
-constexpr double rounding = 1e-6;  // of floats up to 1, and of sums of them
-const double between_looks = azimuth_error(bounded_azimuths) + sampling_error(bounded_rays);
+constexpr double float_rounding = 1e-6;  // of floats up to 1, and of sums of them
 
-TEST_P(SkyBounds, HoldTheExactAnswer) {
+TEST_P(SkyBounds, HoldTheTrueValue) {
   const Answers exact = answers(Engine::exact);
+  EXPECT_EQ(exact.low, exact.high);
   EXPECT_LT(*std::min_element(exact.svf.begin(), exact.svf.end()), 0.5F) << "the town hides too little to tell";
-  const double widest = expect_held(answers(Engine::rays), exact, one_bounded_ray);
-  EXPECT_TRUE(widest > 0.0 || GetParam().tolerance == 0.0) << "nothing is left open to tell";
+  EXPECT_GT(expect_held(answers(Engine::rays), exact), 0.0);
   // Horizons alone cannot do where something hangs
-  expect_held(answers(Engine::automatic), exact, between_looks);
-  if (!GetParam().overhangs) expect_held(answers(Engine::horizon), exact, between_looks);
+  expect_held(answers(Engine::automatic), exact);
+  if (!GetParam().overhangs) expect_held(answers(Engine::horizon), exact);
 }
 
-TEST_P(SkyBounds, OfHorizonsAreDecidedByRays) {
-  constexpr double most = 0.005;
-  const Answers exact = answers(Engine::exact), none = answers(Engine::automatic, 0.0), some = answers(Engine::automatic, most);
+TEST_P(SkyBounds, OfTheSameRaysHoldWhatTheyFind) {
+  const Answers exact = answers(Engine::exact, std::nullopt, true), bounded = answers(Engine::rays, std::nullopt, true);
   for (std::size_t n = 0; n < exact.svf.size(); ++n) {
-    EXPECT_EQ(none.low[n], none.high[n]) << "receiver " << n;
-    EXPECT_NEAR(none.svf[n], exact.svf[n], between_looks) << "receiver " << n;
-    EXPECT_NEAR(some.svf[n], exact.svf[n], most + between_looks) << "receiver " << n;
-    EXPECT_LE(some.high[n] - some.svf[n], most + rounding) << "receiver " << n;
-    EXPECT_LE(some.svf[n] - some.low[n], most + rounding) << "receiver " << n;
-  }
-  expect_held(some, exact, between_looks);
-}
-
-TEST_P(SkyBounds, TheFarErrorStaysBelowTheMost) {
-  constexpr double most = 0.005;
-  const Answers exact = answers(Engine::exact), none = answers(Engine::rays, 0.0), some = answers(Engine::rays, most);
-  for (std::size_t n = 0; n < exact.svf.size(); ++n) {
-    EXPECT_NEAR(none.svf[n], exact.svf[n], one_bounded_ray) << "receiver " << n;
-    EXPECT_EQ(none.low[n], none.high[n]) << "receiver " << n;
-    EXPECT_NEAR(some.svf[n], exact.svf[n], most + one_bounded_ray) << "receiver " << n;
+    EXPECT_LE(bounded.low[n], exact.svf[n] + one_bounded_ray) << "receiver " << n;
+    EXPECT_GE(bounded.high[n], exact.svf[n] - one_bounded_ray) << "receiver " << n;
   }
 }
 
-TEST_P(SkyBounds, AskingForThemChangesNoAnswer) {
+TEST_P(SkyBounds, KeepAnAllowedError) {
+  const Answers exact = answers(Engine::exact);
+  for (const Engine engine : {Engine::rays, Engine::automatic})
+    for (const double most : {0.0, 0.0005, 0.005}) {
+      const Answers some = answers(engine, most);
+      const double error = std::max(most, 2.0 * rounding_of_bounds) + float_rounding;
+      for (std::size_t n = 0; n < exact.svf.size(); ++n) {
+        EXPECT_NEAR(some.svf[n], exact.svf[n], error) << "receiver " << n;
+        EXPECT_LE(some.high[n] - some.svf[n], error) << "receiver " << n;
+        EXPECT_LE(some.svf[n] - some.low[n], error) << "receiver " << n;
+      }
+      expect_held(some, exact);
+    }
+}
+
+TEST_P(SkyBounds, AskingForThemKeepsAnswersWithinThem) {
   for (const Engine engine : {Engine::rays, Engine::automatic}) {
     const Answers bounded = answers(engine);
     const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, bounded_rays});
     std::vector<float> plain(bounded.svf.size());
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, plain);
-    // With bounds, rays answer for a few more of those who may look below something
-    const double most = engine == Engine::rays ? 0.0 : between_looks;
-    for (std::size_t n = 0; n < plain.size(); ++n) EXPECT_NEAR(plain[n], bounded.svf[n], most) << "receiver " << n;
+    for (std::size_t n = 0; n < plain.size(); ++n)
+      EXPECT_EQ(bounded.svf[n], std::clamp(plain[n], bounded.low[n], bounded.high[n])) << "receiver " << n;
   }
 }
 
-TEST_P(SkyBounds, RaysAreTracedAgainstTheWholeCityOnlyWhereTheyMust) {
-  const auto rays_of = [&](Engine engine, double most) {
+TEST_P(SkyBounds, TheWholeCityDecidesOnlyWhatItMust) {
+  const auto decided_for = [&](Engine engine, double most) {
     const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, bounded_rays, most});
     std::vector<float> svf(count_);
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, svf);
     return evaluator.statistics().retraced_rays;
   };
-  for (const Engine engine : {Engine::rays, Engine::automatic}) EXPECT_EQ(rays_of(engine, 1.0), 0U);
-  EXPECT_LT(rays_of(Engine::rays, 0.0), bounded_rays * count_ / 4);
-  const std::uint64_t all = rays_of(Engine::automatic, 0.0);
-  EXPECT_TRUE(all > 0 || GetParam().tolerance == 0.0);
-  EXPECT_LE(rays_of(Engine::automatic, 0.005), all / 2);
+  for (const Engine engine : {Engine::rays, Engine::automatic}) {
+    EXPECT_EQ(decided_for(engine, 1.0), 0U);
+    const std::uint64_t all = decided_for(engine, 0.0);
+    EXPECT_GT(all, 0U);
+    EXPECT_LE(decided_for(engine, 0.005), all / 2);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -170,10 +170,11 @@ std::vector<Row> random_rows(std::size_t count, RandomPlaces& random) {
   return rows;
 }
 
-SectorMinHorizon minima_of(const std::vector<Row>& rows, const AzimuthSampling& ring) {
+SectorMinHorizon minima_of(const std::vector<Row>& rows, const AzimuthSampling& ring,
+                           SectorAzimuths taken = SectorAzimuths::inside) {
   SectorMinHorizon min_horizon;
   const float* const slopes = rows.front().data();
-  find_sector_minima({&slopes, 1}, ring.first_of_sector(), min_horizon);
+  find_sector_minima({&slopes, 1}, ring.view(), taken, min_horizon);
   return min_horizon;
 }
 
@@ -184,6 +185,22 @@ float expected_minimum(const std::vector<Row>& rows, const AzimuthSampling& ring
     for (std::size_t k = ring.first_of_sector()[s % sectors]; k < ring.first_of_sector()[s % sectors + 1]; ++k)
       lowest = std::min(lowest, *std::min_element(rows[k].begin(), rows[k].end()));
   return lowest;
+}
+
+TEST(SectorMinHorizon, TakesTheAzimuthsBesideASectorToo) {
+  RandomPlaces random;
+  for (const std::size_t azimuths : {8U, 96U, 256U}) {
+    const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
+    const std::vector<Row> rows = random_rows(azimuths, random);
+    const SectorMinHorizon minima = minima_of(rows, ring, SectorAzimuths::and_beside);
+    for (std::size_t s = 0; s < sectors; ++s) {
+      const std::size_t begin = ring.first_of_sector()[s], end = ring.first_of_sector()[s + 1];
+      float lowest = expected_minimum(rows, ring, s, s);
+      for (const std::size_t k : {(begin + azimuths - 1) % azimuths, end % azimuths})
+        lowest = std::min(lowest, *std::min_element(rows[k].begin(), rows[k].end()));
+      EXPECT_EQ(minima.minima[s], lowest) << s << " of " << azimuths;
+    }
+  }
 }
 
 std::set<std::size_t> edges_above(const EdgeReach& reach, const SectorMinHorizon& min_horizon) {

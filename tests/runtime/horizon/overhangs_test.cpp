@@ -267,7 +267,9 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     OverhangGeometry overhangs = packed.geometry();
     const AzimuthSampling ring = AzimuthSampling::even(scene_azimuths, {});
     FarHorizonByHand far({});
-    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth},
+    CellSilhouettes silhouettes = GetParam().town.silhouettes();
+    silhouettes.number_upper_borders();
+    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), silhouettes, overhangs, {0.0F, rays_per_azimuth},
                          JumpPlaces::between_azimuths);
     std::vector<Receiver> receivers;
     for (const Point3f& p : places) receivers.push_back({receivers.size(), p, level_normal});

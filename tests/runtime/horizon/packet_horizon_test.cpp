@@ -328,7 +328,8 @@ TEST(FindRaising, KeepsWhatSomePacketMaySee) {
       bounds.push_back(bounds_of(n == 0 ? west : east));
     }
     std::uint16_t bits = 0;
-    edge_kernels().find_raising({edges.batches(), EdgeRole::grounded}, joined(bounds), slopes, ring.view(), &bits);
+    edge_kernels().find_raising({edges.batches(), EdgeRole::grounded}, joined(bounds), slopes, ring.view(), RaisingAt::azimuths,
+                                &bits);
     return bits & 0xFU;
   };
   EXPECT_EQ(raising({0}), 0b0001U);

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/certain_sky.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <numeric>
+
+#include "base/cancellation.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double turn_rad = 2.0 * std::numbers::pi;
+}  // namespace
+
+CertainSky::CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
+                       const ResidualHorizon& residual)
+    : silhouettes_(silhouettes),
+      residual_(residual),
+      weight_(weight),
+      wanted_(wanted_width),
+      group_(azimuths),
+      envelope_(azimuths, weight),
+      upper_(azimuths, PacketHorizon::Edges::tracked),
+      lower_(azimuths),
+      edges_in_wedges_(azimuths),
+      reached_(azimuths.size()) {}
+
+void CertainSky::keep(const AllowedError& allowed) {
+  allowed_.emplace(allowed);
+  wanted_ = std::min(wanted_, allowed.error);
+  envelope_.keep_terms();
+}
+
+void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const PacketHorizon> grounded) {
+  const auto keep = [&](const SilhouetteEdges& all, SilhouetteEdges& kept) {
+    group_.keep_raising(all, packets, grounded, RaisingAt::wedges, kept);
+  };
+  keep(silhouettes_.grounded, grounded_);
+  keep(silhouettes_.near.overhangs, near_.overhangs);
+  keep(silhouettes_.near.undersides, near_.undersides);
+  keep(silhouettes_.far.overhangs, far_.overhangs);
+  keep(silhouettes_.far.undersides, far_.undersides);
+  const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
+  grounded_ends_.find(std::span(upper).first(1), silhouettes_.upper_ends);
+  if (has_overhangs()) upper_ends_.find(upper, silhouettes_.upper_ends);
+}
+
+CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below) {
+  residual_.find_in_wedges(receivers, in_wedges_);
+  Open sky = open_sky(grounded, receivers, below);
+  Bounds bounds;
+  for (std::size_t l = 0; l < receivers.count; ++l) {
+    if (allowed_) decide(receivers, l, has_bit(below, l), sky, bounds);
+    bounds.low[l] = static_cast<float>(std::clamp(sky.sky.low[l] - rounding_of_bounds, 0.0, 1.0));
+    bounds.high[l] = static_cast<float>(std::clamp(sky.sky.high[l] + sky.gaps[l] + rounding_of_bounds, 0.0, 1.0));
+  }
+  return bounds;
+}
+
+/// Sky is what lies above the envelope of all upper borders, and at most what lies between that of the grounded edges and the
+/// lower borders.
+CertainSky::Open CertainSky::open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below) {
+  Open open;
+  open.gaps = most_in_gaps(grounded, receivers, below);
+  const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
+  const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
+  if (!has_overhangs()) {
+    open.sky = envelope_.bounds({std::span(upper).first(1), grounded_ends_.batches(), silhouettes_.upper_ends, grounded}, hiding,
+                                receivers, wanted_);
+  } else {
+    upper_ = grounded;
+    upper_.raise(far_.overhangs, receivers);
+    upper_.raise(near_.overhangs, receivers);
+    open.sky = envelope_.bounds({upper, upper_ends_.batches(), silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
+  }
+  for (std::size_t l = 0; l < receivers.count; ++l)
+    if (has_bit(below, l)) open.sky.low[l] = open.sky.high[l] = 0.0;
+  return open;
+}
+
+PacketEnvelope::Sums CertainSky::most_in_gaps(const PacketHorizon& grounded, const ReceiverPacket& receivers,
+                                              std::uint32_t below) {
+  choose_gaps(receivers, below);
+  if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
+  const std::array<const SilhouetteEdges*, 1> edges{&grounded_};
+  return envelope_.most_in_gaps({edges, grounded_ends_.batches(), silhouettes_.upper_ends, grounded},
+                                {lower_borders(grounded, receivers), reached_}, receivers);
+}
+
+/// Where no upper border reaches into a wedge, nothing hides more than the horizons and the far map's low bound, above which all
+/// counts as sky already. What overhangs hides the more, the lower its border: that may be one that no horizon is lower than.
+void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t below) {
+  reached_ = in_wedges_.overhang_below_low.reached;
+  residual_borders_ = in_wedges_.overhang_below_low.rows;
+  if (!has_overhangs() && below == 0) return;
+  const PacketBounds bounds = bounds_of(receivers);
+  const auto mark = [&](const SilhouetteEdges& near, const SilhouetteEdges& far, std::vector<std::uint8_t>& wedges) {
+    const std::array<const SilhouetteEdges*, 2> edges{&near, &far};
+    edges_in_wedges_.begin(edges, bounds);
+    edges_in_wedges_.mark_reached(wedges);
+  };
+  may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
+  if (below == 0) mark(near_.overhangs, far_.overhangs, may_hide_);
+  under_border_ = in_wedges_.overhang.reached;
+  mark(silhouettes_.near.undersides, silhouettes_.far.undersides, under_border_);
+  for (std::size_t k = 0; k < reached_.size(); ++k)
+    if (may_hide_[k] != 0) reached_[k] = under_border_[k];
+  if (residual_.is_grounded()) return;
+  chosen_borders_ = in_wedges_.overhang_below_low.rows;
+  for (std::size_t k = 0; k < reached_.size(); ++k)
+    if (may_hide_[k] != 0) chosen_borders_[k] = in_wedges_.overhang.rows[k];
+  residual_borders_ = chosen_borders_;
+}
+
+std::span<const PacketHorizon::Row> CertainSky::lower_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers) {
+  if (!has_undersides()) return residual_borders_;
+  lower_.set_slopes(grounded);
+  lower_.raise(far_.undersides, receivers);
+  lower_.raise(near_.undersides, receivers);
+  const std::array<const SilhouetteEdges*, 2> undersides{&near_.undersides, &far_.undersides};
+  return envelope_.find_lower_borders(undersides, grounded, lower_, receivers, residual_borders_);
+}
+
+double CertainSky::OpenWedges::width(std::size_t k) const { return high(k) + gap(k) - low(k); }
+
+/// Their numbers as a heap, the widest first.
+std::vector<std::size_t> CertainSky::OpenWedges::widest_first() const {
+  std::vector<std::size_t> wedges(envelope.size());
+  std::iota(wedges.begin(), wedges.end(), std::size_t{0});
+  std::make_heap(wedges.begin(), wedges.end(), [this](std::size_t a, std::size_t b) { return width(a) < width(b); });
+  return wedges;
+}
+
+void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, bool is_below, Open& open, Bounds& bounds) {
+  const double allowed = std::max(0.0, 2.0 * (allowed_->error - rounding_of_bounds));
+  if (open.width(l) <= allowed) return;
+  const OpenWedges wedges{envelope_, reached_, l, is_below};
+  const auto narrower = [&](std::size_t a, std::size_t b) { return wedges.width(a) < wedges.width(b); };
+  std::vector<std::size_t> widest = wedges.widest_first();
+  double left = open.width(l);
+  while (left > allowed && !widest.empty() && wedges.width(widest.front()) > 0.0) {
+    throw_if_cancelled(allowed_->stop);
+    std::pop_heap(widest.begin(), widest.end(), narrower);
+    const std::size_t k = widest.back();
+    widest.pop_back();
+    const double term = exact_term(receivers, l, is_below, k);
+    open.sky.low[l] += (term - wedges.low(k)) / turn_rad;
+    open.sky.high[l] += (term - wedges.high(k)) / turn_rad;
+    open.gaps[l] -= wedges.gap(k) / turn_rad;
+    left -= wedges.width(k) / turn_rad;
+    ++bounds.wedges;
+    bounds.decided |= 1U << l;
+  }
+}
+
+double CertainSky::exact_term(const ReceiverPacket& receivers, std::size_t l, bool is_below, std::size_t wedge) {
+  const Point3d place = allowed_->city.scene_from_cell({receivers.x[l], receivers.y[l], receivers.z[l]}, allowed_->cell);
+  if (!exact_) exact_.emplace(allowed_->city.triangles());
+  const double sky = exact_->sky_of_wedge(envelope_.wedge(wedge), place,
+                                          {receivers.normal_x[l], receivers.normal_y[l], receivers.normal_z[l]}, weight_);
+  return is_below ? sky : envelope_.term_of(sky, wedge, receivers, l);
+}
+
+}  // namespace farlod

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/cell_silhouettes.hpp"
+#include "horizon/exact_sky.hpp"
+#include "horizon/packet_envelope.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/residual_horizon.hpp"
+#include "horizon/wedge_edges.hpp"
+#include "scene/ray_scenes.hpp"
+
+namespace farlod {
+
+/// What bounds add for the rounding of coordinates and sums in floats: docs/concepts.md, "Bounds of a sky view factor".
+inline constexpr double rounding_of_bounds = 2e-5;
+/// Edges leave bounds no farther apart, as long as nothing else does: less would cost more.
+inline constexpr double wanted_width = 0.005;
+
+/// How far answers may be from the ends of their bounds. Where edges, the far map and gaps leave more open, the whole city tells.
+struct AllowedError {
+  double error = 0.0;
+  const WholeCityOnDemand& city;
+  Cell cell;                  ///< that of the receivers
+  std::stop_token stop = {};  ///< ends the evaluation with Cancelled
+};
+
+/// Bounds of sky view factors between which the true value of the whole city lies, whatever there is between the azimuths.
+/// docs/concepts.md, "Bounds of a sky view factor".
+class CertainSky {
+ public:
+  using Lanes = PacketHorizon::Lanes;
+
+  /// All must outlive it. The azimuths are even, at least PacketEnvelope::least_azimuths of them.
+  CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
+             const ResidualHorizon& residual);
+  /// From now on, bounds are no wider than twice this error.
+  void keep(const AllowedError& allowed);
+
+  /// Begins a group of packets, whose horizons are those of grounded edges alone.
+  void begin(std::span<const ReceiverPacket> packets, std::span<const PacketHorizon> grounded);
+
+  /// `decided`: a bit for each receiver of whom wedges were decided by the whole city; so many wedges in all.
+  struct Bounds {
+    Lanes low{}, high{};
+    std::uint32_t decided = 0;
+    std::uint64_t wedges = 0;
+  };
+  /// For a packet of the group, its horizon, and a bit for each receiver below an overhang.
+  [[nodiscard]] Bounds bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below);
+
+ private:
+  /// What is known of a packet, before rounding.
+  struct Open {
+    PacketEnvelope::Bounds sky;
+    PacketEnvelope::Sums gaps{};
+    [[nodiscard]] double width(std::size_t lane) const { return sky.high[lane] + gaps[lane] - sky.low[lane]; }
+  };
+  /// Whether something is in the group's sight.
+  [[nodiscard]] bool has_overhangs() const { return !near_.overhangs.empty() || !far_.overhangs.empty(); }
+  [[nodiscard]] bool has_undersides() const { return !near_.undersides.empty() || !far_.undersides.empty(); }
+  [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const PacketHorizon& grounded, const ReceiverPacket& receivers,
+                                                  std::uint32_t below);
+  /// Finds the wedges in which sky may be seen under an overhang, and the lower borders of the far map that count there.
+  void choose_gaps(const ReceiverPacket& receivers, std::uint32_t below);
+  /// Rows of wedges, at least those of the far map.
+  [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
+  [[nodiscard]] Open open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below);
+  /// The terms of a receiver's wedges (PacketEnvelope::Terms). Above an overhang overhead there is no sky.
+  struct OpenWedges {
+    const PacketEnvelope& envelope;
+    const std::vector<std::uint8_t>& reached;
+    std::size_t lane;
+    bool is_below;
+    [[nodiscard]] double low(std::size_t k) const { return is_below ? 0.0 : static_cast<double>(envelope.terms().low[k][lane]); }
+    [[nodiscard]] double high(std::size_t k) const {
+      return is_below ? 0.0 : static_cast<double>(envelope.terms().high[k][lane]);
+    }
+    [[nodiscard]] double gap(std::size_t k) const {
+      return reached[k] == 0 ? 0.0 : static_cast<double>(envelope.terms().gaps[k][lane]);
+    }
+    [[nodiscard]] double width(std::size_t k) const;
+    [[nodiscard]] std::vector<std::size_t> widest_first() const;
+  };
+  /// The term of a wedge by the whole city.
+  [[nodiscard]] double exact_term(const ReceiverPacket& receivers, std::size_t lane, bool is_below, std::size_t wedge);
+  /// Decides wedges of a receiver by the whole city, the widest first, until its bounds are close enough.
+  void decide(const ReceiverPacket& receivers, std::size_t lane, bool is_below, Open& open, Bounds& bounds);
+
+  const CellSilhouettes& silhouettes_;
+  const ResidualHorizon& residual_;
+  SkyWeight weight_;
+  std::optional<AllowedError> allowed_;
+  double wanted_;
+  std::optional<ExactSky> exact_;  ///< once it is asked
+  PacketGroup group_;
+  PacketEnvelope envelope_;
+  // What the group sees
+  SilhouetteEdges grounded_;
+  OverhangEdges near_, far_;
+  EndPlaces grounded_ends_, upper_ends_;
+  // Working memory, kept from packet to packet
+  ResidualHorizon::InWedges in_wedges_;
+  PacketHorizon upper_, lower_;
+  EdgesInWedges edges_in_wedges_;
+  std::vector<std::uint8_t> reached_;  ///< wedges in which sky may be seen under an overhang
+  std::vector<std::uint8_t> may_hide_, under_border_;
+  std::vector<PacketHorizon::Row> chosen_borders_;
+  std::span<const PacketHorizon::Row> residual_borders_;  ///< rows of wedges: the far map's
+};
+
+}  // namespace farlod

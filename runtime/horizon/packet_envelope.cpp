@@ -1,0 +1,398 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/packet_envelope.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "base/expects.hpp"
+#include "horizon/kernels.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double turn_rad = 2.0 * std::numbers::pi;
+
+WedgeShape shape_of(std::size_t wedges) {
+  const double angle = turn_rad / static_cast<double>(wedges);
+  constexpr double rounding = 1e-6;
+  return {static_cast<float>(angle), static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)),
+          static_cast<float>(std::tan(angle)), static_cast<float>((1.0 + rounding) / std::cos(0.5 * angle))};
+}
+
+Wedge wedge_between(Point2d d, Point2d e) {
+  const double tangent = (d.x * e.y - d.y * e.x) / (d.x * e.x + d.y * e.y);
+  return {(1.0 / std::sqrt(d.x * d.x + d.y * d.y)) * d, tangent};
+}
+
+Point3d place_of(const ReceiverPacket& r, std::size_t lane) { return {r.x[lane], r.y[lane], r.z[lane]}; }
+Point3d normal_of(const ReceiverPacket& r, std::size_t lane) { return {r.normal_x[lane], r.normal_y[lane], r.normal_z[lane]}; }
+
+}  // namespace
+
+PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight)
+    : azimuths_(azimuths),
+      weight_(weight),
+      shape_(shape_of(azimuths.size())),
+      edges_(azimuths),
+      none_(azimuths.size()),
+      own_slopes_(azimuths.size()),
+      own_numbers_(azimuths.size() * packet_lanes),
+      lower_(azimuths.size()),
+      tops_(azimuths.size()),
+      borders_(azimuths.size()),
+      minima_(azimuths.size() * static_cast<std::size_t>(std::bit_width(azimuths.size()))),
+      others_(azimuths.size()) {
+  FARLOD_EXPECTS(azimuths.size() >= least_azimuths);
+  for (Rows* rows : {&terms_.low, &terms_.high, &terms_.gaps}) rows->resize(azimuths.size());
+  const auto direction = [&](std::size_t k) { return Point2d{azimuths.cosine()[k], azimuths.sine()[k]}; };
+  for (std::size_t k = 0; k < azimuths.size(); ++k)
+    wedges_.push_back(wedge_between(direction(k), direction(k + 1 < azimuths.size() ? k + 1 : 0)));
+}
+
+PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, const ReceiverPacket& r,
+                                              double wanted) {
+  draw(occluders, r, nullptr);
+  const SimpleSums simple = sum_simple(hiding, r);
+  list_doubtful_wedges(r, nullptr);
+  Bounds bounds;
+  for (std::size_t l = 0; l < r.count; ++l) {
+    const Eye eye{occluders, hiding, r, l};
+    const bool looks_down = r.normal_z[l] < 0.0F;
+    double low = looks_down ? 0.0 : simple.low[l], high = looks_down ? 0.0 : simple.high[l];
+    find_doubts(eye);
+    resolve_doubts(eye, high - low, wanted * turn_rad);
+    for (const Doubt& d : doubts_) {
+      low += static_cast<double>(d.low);
+      high += static_cast<double>(d.high);
+    }
+    if (has_terms_) keep_terms_of(l);
+    bounds.low[l] = low / turn_rad;
+    bounds.high[l] = high / turn_rad;
+  }
+  return bounds;
+}
+
+PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, const Gaps& gaps, const ReceiverPacket& r) {
+  draw(occluders, r, gaps.reached.data());
+  wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, r,
+                                       azimuths_.view(), shape_, wedge_weight_, others_.data(), tops_.front().data(),
+                                       terms_.gaps.front().data());
+  list_doubtful_wedges(r, gaps.reached.data());
+  const Hiding nothing{none_, none_};
+  Sums sums{};
+  for (std::size_t l = 0; l < r.count; ++l) {
+    find_doubts({occluders, nothing, r, l});
+    // Between edges, a lower border that is no higher than the horizons may show sky, too
+    for (const Doubt& d : doubts_)
+      terms_.gaps[d.wedge][l] = most_in_gap(std::max(gaps.borders[d.wedge][l], minima_[d.wedge]), r, l, d);
+  }
+  for (std::size_t k = 0; k < wedges_.size(); ++k) {
+    if (gaps.reached[k] == 0) continue;
+    for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
+  }
+  return sums;
+}
+
+/// The horizons, and the ends that rise above them, in the wedges that are asked.
+void PacketEnvelope::draw(const Occluders& occluders, const ReceiverPacket& r, const std::uint8_t* asked) {
+  const bool look_up = std::all_of(r.normal_z.begin(), r.normal_z.end(), [](float z) { return z == 1.0F; });
+  wedge_weight_ = weight_ == SkyWeight::solid_angle ? WedgeWeight::solid_angle
+                  : look_up                         ? WedgeWeight::cosine_up
+                                                    : WedgeWeight::cosine;
+  slopes_ = occluders.horizon.slopes();
+  numbers_ = occluders.horizon.numbers();
+  if (wedge_weight_ != WedgeWeight::cosine_up) {
+    wedge_sky_kernels().raise_to_planes(slopes_, numbers_, r, azimuths_.view(), own_slopes_.front().data(), own_numbers_.data());
+    slopes_ = own_slopes_.front().data();
+    numbers_ = own_numbers_.data();
+  }
+  wedge_end_kernels().find_lower(slopes_, wedges_.size(), asked, lower_horizons());
+  const PacketBounds bounds = bounds_of(r);
+  edges_.begin(occluders.edges, bounds);
+  for (Row& top : tops_) top.fill(0.0F);
+  wedge_end_kernels().raise_tops(occluders.ends, r, bounds.box, azimuths_.view(), lower_horizons(), tops_.front().data());
+}
+
+SimpleSums PacketEnvelope::sum_simple(const Hiding& hiding, const ReceiverPacket& r) {
+  SimpleSums sums;
+  if (has_terms_) {
+    sums.low_rows = terms_.low.front().data();
+    sums.high_rows = terms_.high.front().data();
+  }
+  wedge_sky_kernels().sum_simple({slopes_, numbers_}, {hiding.least.front().data(), hiding.most.front().data()}, r,
+                                 azimuths_.view(), shape_, wedge_weight_, others_.data(), tops_.front().data(), sums);
+  return sums;
+}
+
+void PacketEnvelope::list_doubtful_wedges(const ReceiverPacket& r, const std::uint8_t* asked) {
+  for (std::vector<std::uint32_t>& wedges : doubtful_) wedges.clear();
+  std::uint32_t look_down = 0;
+  for (std::size_t l = 0; l < r.count; ++l) look_down |= r.normal_z[l] < 0.0F ? 1U << l : 0U;
+  const std::uint32_t all = (1U << r.count) - 1U;
+  for (std::uint32_t k = 0; k < wedges_.size(); ++k) {
+    if (asked != nullptr && asked[k] == 0) continue;
+    for (std::uint32_t bits = (others_[k] | look_down) & all; bits != 0; bits &= bits - 1)
+      doubtful_[static_cast<std::size_t>(std::countr_zero(bits))].push_back(k);
+  }
+}
+
+// --- Doubts: first from the two edges that are highest at both azimuths
+// -----------------------------------------------------------
+
+void PacketEnvelope::find_doubts(const Eye& eye) {
+  doubts_.clear();
+  const std::vector<std::uint32_t>& wedges = doubtful_[eye.lane];
+  WedgePairs pairs;
+  PairsAnswer answer;
+  pairs.normal_x = eye.receivers.normal_x[eye.lane];
+  pairs.normal_y = eye.receivers.normal_y[eye.lane];
+  pairs.normal_z = eye.receivers.normal_z[eye.lane];
+  for (std::size_t first = 0; first < wedges.size(); first += packet_lanes) {
+    const std::size_t count = std::min(packet_lanes, wedges.size() - first);
+    for (std::size_t n = 0; n < packet_lanes; ++n) put_pair(eye, wedges[first + std::min(n, count - 1)], n, pairs);
+    wedge_sky_kernels().bound_pairs(pairs, shape_, wedge_weight_, answer);
+    for (std::size_t n = 0; n < count; ++n) put_doubt(eye, wedges[first + n], answer, n);
+  }
+}
+
+void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, WedgePairs& pairs) const {
+  const std::size_t l = eye.lane, after = next(k);
+  put_edge(eye, number_at(k, l), k, n, pairs.first);
+  put_edge(eye, number_at(after, l), k, n, pairs.last);
+  pairs.cosine[n] = static_cast<float>(wedges_[k].from.x);
+  pairs.sine[n] = static_cast<float>(wedges_[k].from.y);
+  pairs.from[n] = slope_at(k, l);
+  pairs.to[n] = slope_at(after, l);
+  pairs.top[n] = std::max(tops_[k][l] * shape_.widened, eye.hiding.most[k][l]);
+  pairs.least[n] = eye.hiding.least[k][l];
+}
+
+void PacketEnvelope::put_edge(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const {
+  const ReceiverPacket& r = eye.receivers;
+  const std::size_t l = eye.lane;
+  if (number < 0) return put_plane(eye, number, k, n, edges);
+  const auto end = 2 * static_cast<std::size_t>(number);
+  const Point3f &a = eye.occluders.ends_of_numbers.end(end).p, &b = eye.occluders.ends_of_numbers.end(end + 1).p;
+  edges.px[n] = a.x - r.x[l];
+  edges.py[n] = a.y - r.y[l];
+  edges.pz[n] = a.z - r.z[l];
+  edges.qx[n] = b.x - r.x[l];
+  edges.qy[n] = b.y - r.y[l];
+  edges.qz[n] = b.z - r.z[l];
+}
+
+/// Level ground or the receiver's own plane, over all of the wedge.
+void PacketEnvelope::put_plane(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const {
+  const Point3d normal = normal_of(eye.receivers, eye.lane);
+  const Wedge& w = wedges_[k];
+  const auto place = [&](double tau) {
+    const double x = w.from.x - tau * w.from.y, y = w.from.y + tau * w.from.x;
+    const double height = number == number_of_plane ? -(normal.x * x + normal.y * y) / normal.z : 0.0;
+    return Point3f{static_cast<float>(x), static_cast<float>(y), static_cast<float>(height)};
+  };
+  const Point3f a = place(-w.tangent), b = place(2.0 * w.tangent);
+  edges.px[n] = a.x;
+  edges.py[n] = a.y;
+  edges.pz[n] = a.z;
+  edges.qx[n] = b.x;
+  edges.qy[n] = b.y;
+  edges.qz[n] = b.z;
+}
+
+void PacketEnvelope::put_doubt(const Eye& eye, std::size_t k, const PairsAnswer& answer, std::size_t n) {
+  const std::size_t l = eye.lane;
+  Doubt& d = doubts_.emplace_back();
+  d.wedge = static_cast<std::uint32_t>(k);
+  d.high = answer.high[n];
+  d.low = std::min(answer.low[n], d.high);
+  d.turn = answer.turn[n];
+  d.first = answer.first[n];
+  // Between edges that are apart anything may rise
+  d.middle = answer.lid[n] > 0.0F ? std::min(answer.before[n], answer.after[n]) : -std::numeric_limits<float>::infinity();
+  d.last = answer.last[n];
+  d.lid = answer.lid[n];
+  // Where the back of a wall begins, and for who looks down, only all edges tell
+  const bool is_behind = number_at(k, l) == number_behind || number_at(next(k), l) == number_behind;
+  d.is_unknown = has_bit(answer.unknown, n) || is_behind || eye.receivers.normal_z[l] < 0.0F;
+}
+
+// --- Then from all edges, in doubles: the widest first
+// ----------------------------------------------------------------------------
+
+void PacketEnvelope::resolve_doubts(const Eye& eye, double width, double wanted) {
+  for (Doubt& d : doubts_) {
+    if (d.is_unknown) resolve(eye, d);
+    width += static_cast<double>(d.width());
+  }
+  if (width <= wanted) return;
+  // Each is resolved once: the heap shrinks
+  const auto narrower = [](const Doubt& a, const Doubt& b) {
+    return (a.is_unknown ? 0.0F : a.width()) < (b.is_unknown ? 0.0F : b.width());
+  };
+  std::make_heap(doubts_.begin(), doubts_.end(), narrower);
+  for (auto end = doubts_.end(); width > wanted && end != doubts_.begin(); --end) {
+    std::pop_heap(doubts_.begin(), end, narrower);
+    Doubt& widest = *(end - 1);
+    if (widest.is_unknown || widest.width() <= 0.0F) return;
+    width -= static_cast<double>(widest.width());
+    resolve(eye, widest);
+    width += static_cast<double>(widest.width());
+  }
+}
+
+void PacketEnvelope::resolve(const Eye& eye, Doubt& d) {
+  const std::size_t k = d.wedge, l = eye.lane;
+  const EdgesInWedges::InWedge& edges = edges_.reaching(k, minima_[k]);
+  find_edges_above(eye, d, edges);
+  const float hidden = std::max(eye.hiding.most[k][l], minima_[k]);
+  if (!d.is_unknown && above_.empty() && eye.hiding.least[k][l] <= d.lid && hidden <= d.lid)
+    d.low = d.high;  // nothing else rises above both
+  else
+    find_sky(eye, edges, d);
+}
+
+void PacketEnvelope::find_edges_above(const Eye& eye, const Doubt& d, const EdgesInWedges::InWedge& edges) {
+  const ReceiverPacket& r = eye.receivers;
+  const Wedge& w = wedges_[d.wedge];
+  const WedgeEye seen{r.x[eye.lane],
+                      r.y[eye.lane],
+                      r.z[eye.lane],
+                      static_cast<float>(w.from.x),
+                      static_cast<float>(w.from.y),
+                      static_cast<float>(w.tangent),
+                      d.turn,
+                      d.first,
+                      d.middle,
+                      d.last};
+  above_.clear();
+  for (std::size_t n = 0; n < edges.size; n += packet_lanes) {
+    const std::size_t count = std::min(packet_lanes, edges.size - n);
+    std::uint32_t bits = d.is_unknown ? ~0U : wedge_sky_kernels().find_above(edges.edges[n / packet_lanes], seen);
+    bits &= (1U << count) - 1U;
+    for (; bits != 0; bits &= bits - 1)
+      above_.push_back(static_cast<std::uint32_t>(n) + static_cast<std::uint32_t>(std::countr_zero(bits)));
+  }
+}
+
+void PacketEnvelope::find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, Doubt& d) {
+  const std::size_t k = d.wedge, l = eye.lane;
+  const double widest = std::sqrt(1.0 + wedges_[k].tangent * wedges_[k].tangent);
+  envelope_.begin(wedges_[k], normal_of(eye.receivers, l), weight_);
+  // Nowhere higher than `least`
+  const double least = eye.hiding.least[k][l];
+  if (least > 0.0) add_level(wedges_[k], least, least / widest);
+  add_edges(eye, edges, k);
+  const PicturePlane::Sky known = envelope_.sky();
+  // Nor are edges among these that are no higher than all horizons
+  const double hidden = std::max(eye.hiding.most[k][l], minima_[k]);
+  double low = known.sky;
+  if (std::isinf(hidden)) {
+    low = 0.0;
+  } else if (hidden * widest > known.lowest) {
+    add_level(wedges_[k], hidden, hidden);  // nowhere lower than `hidden`
+    low = envelope_.sky().sky;
+  }
+  d.low = static_cast<float>(term_of(low, k, eye.receivers, l));
+  d.high = static_cast<float>(term_of(known.sky, k, eye.receivers, l));
+}
+
+/// Adds a straight edge across the wedge, whose ends have these slopes.
+void PacketEnvelope::add_level(const Wedge& w, double first, double last) {
+  const Point2d d = w.from, e{d.x - w.tangent * d.y, d.y + w.tangent * d.x};
+  envelope_.add({d.x, d.y, first}, {e.x, e.y, last * std::sqrt(1.0 + w.tangent * w.tangent)});
+}
+
+void PacketEnvelope::add_edges(const Eye& eye, const EdgesInWedges::InWedge& edges, std::size_t k) {
+  const Point3d p = place_of(eye.receivers, eye.lane);
+  const auto add_number = [&](std::int32_t number) {
+    if (number < 0) return;
+    const auto end = 2 * static_cast<std::size_t>(number);
+    const Point3f &a = eye.occluders.ends_of_numbers.end(end).p, &b = eye.occluders.ends_of_numbers.end(end + 1).p;
+    envelope_.add(Point3d{a.x, a.y, a.z} - p, Point3d{b.x, b.y, b.z} - p);
+  };
+  add_number(number_at(k, eye.lane));
+  if (number_at(next(k), eye.lane) != number_at(k, eye.lane)) add_number(number_at(next(k), eye.lane));
+  for (const std::uint32_t n : above_) {
+    const WedgeEdges& e = edges.edges[n / packet_lanes];
+    const std::size_t m = n % packet_lanes;
+    envelope_.add(Point3d{e.ax[m], e.ay[m], e.az[m]} - p, Point3d{e.bx[m], e.by[m], e.bz[m]} - p);
+  }
+}
+
+double PacketEnvelope::term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const {
+  const Point3d normal = normal_of(receivers, lane);
+  if (wedge_weight_ != WedgeWeight::cosine || normal.z < 0.0) return sky;
+  const Wedge& w = wedges_[k];
+  const double along = normal.x * w.from.x + normal.y * w.from.y, left = normal.y * w.from.x - normal.x * w.from.y;
+  // Upright borders at both azimuths, from the horizons to the zenith
+  const auto border = [&](double tau, double slope) {
+    return std::atan2(1.0, slope) * (tau * along - left) / std::sqrt(1.0 + tau * tau);
+  };
+  return sky - (border(w.tangent, slope_at(next(k), lane)) - border(0.0, slope_at(k, lane)));
+}
+
+float PacketEnvelope::most_in_gap(float border, const ReceiverPacket& r, std::size_t l, const Doubt& d) const {
+  if (!(border > d.lid)) return 0.0F;
+  const Wedge& w = wedges_[d.wedge];
+  const Point3d normal = normal_of(r, l);
+  const double between = most_sky_between(d.lid, border, normal, w);
+  if (wedge_weight_ != WedgeWeight::cosine_up || d.is_unknown) return static_cast<float>(between);
+  const double top = std::max(border, tops_[d.wedge][l] * shape_.widened);
+  const double below_top = d.high - (std::isinf(top) ? 0.0 : shape_.angle / (1.0 + top * top));
+  return static_cast<float>(std::clamp(below_top, 0.0, between));
+}
+
+/// As the kernels have it.
+double PacketEnvelope::most_sky_between(double low, double high, const Point3d& normal, const Wedge& w) const {
+  const auto sine = [](double slope) { return std::isinf(slope) ? 1.0 : slope / std::sqrt(1.0 + slope * slope); };
+  if (weight_ == SkyWeight::solid_angle) return shape_.angle * std::max(0.0, sine(high) - sine(low));
+  const double along = normal.x * w.from.x + normal.y * w.from.y, left = normal.y * w.from.x - normal.x * w.from.y;
+  const double most = std::max(along, along * shape_.cosine + left * shape_.sine);
+  const double outward = most > 0.0 ? shape_.widened * most : most;
+  // F between two slopes, of those that are in front there
+  const double border = normal.z == 0.0 ? std::numeric_limits<double>::infinity() : std::abs(outward / normal.z);
+  const double lowest = outward > 0.0 ? 0.0 : normal.z > 0.0 ? border : std::numeric_limits<double>::infinity();
+  const double highest = outward > 0.0 && normal.z < 0.0 ? border : std::numeric_limits<double>::infinity();
+  const auto above = [&](double slope) {
+    const double t = std::min(std::max(slope, lowest), highest);
+    if (std::isinf(t)) return 0.0;
+    return outward * (std::atan2(1.0, t) - t / (1.0 + t * t)) + normal.z / (1.0 + t * t);
+  };
+  return shape_.angle * std::max(0.0, above(low) - above(high));
+}
+
+void PacketEnvelope::keep_terms_of(std::size_t l) {
+  for (const Doubt& d : doubts_) {
+    terms_.low[d.wedge][l] = d.low;
+    terms_.high[d.wedge][l] = d.high;
+  }
+}
+
+// --- Lower borders
+// ----------------------------------------------------------------------------------------------------------------
+
+/// A lower border is drawn like an upper one, and its ends are marked.
+std::span<const PacketEnvelope::Row> PacketEnvelope::find_lower_borders(EdgeLists undersides, const PacketHorizon& grounded,
+                                                                        const PacketHorizon& lower_borders,
+                                                                        const ReceiverPacket& r, std::span<const Row> others) {
+  wedge_end_kernels().find_lower(grounded.slopes(), wedges_.size(), nullptr, lower_horizons());
+  for (Row& border : borders_) border.fill(0.0F);
+  border_ends_.find(undersides);
+  wedge_end_kernels().raise_tops(border_ends_.batches(), r, bounds_of(r).box, azimuths_.view(), lower_horizons(),
+                                 borders_.front().data());
+  for (std::size_t k = 0; k < wedges_.size(); ++k)
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
+      float top = borders_[k][l];
+      for (const std::size_t azimuth : {k, next(k)})
+        if (lower_borders.row(azimuth)[l] > grounded.row(azimuth)[l]) top = std::max(top, lower_borders.row(azimuth)[l]);
+      borders_[k][l] = std::max(top * shape_.widened, others[k][l]);
+    }
+  return borders_;
+}
+
+}  // namespace farlod

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "farlod/evaluation.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/picture_plane.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/silhouette_edges.hpp"
+#include "horizon/wedge_edges.hpp"
+#include "horizon/wedge_envelope.hpp"
+#include "horizon/wedge_kernels.hpp"
+
+namespace farlod {
+
+/// Bounds of the sky of a packet's receivers that hold between the azimuths, too: the sky above the upper envelope of edges,
+/// wedge by wedge. docs/concepts.md, "The sky of a wedge".
+class PacketEnvelope {
+ public:
+  using Row = PacketHorizon::Row;
+  using Rows = std::vector<Row>;
+  using Sums = std::array<double, ReceiverPacket::lanes>;
+  static constexpr std::size_t least_azimuths = 8;
+
+  /// The azimuths are even, at least so many, and outlive it.
+  PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight);
+
+  /// What hides the sky. All of it must outlive the call.
+  struct Occluders {
+    /// Edges that hide all that is below them; without those that are no higher than `horizon` in any of their wedges.
+    EdgeLists edges;
+    std::span<const EndBatch> ends;  ///< of these edges
+    const BorderEnds& ends_of_numbers;
+    const PacketHorizon& horizon;  ///< of the edges alone, which it tracks
+  };
+  /// What hides the sky besides, in rows of wedges: below `least` no sky is seen, and above `most` nothing hides it.
+  struct Hiding {
+    std::span<const Row> least, most;
+  };
+  struct Bounds {
+    Sums low{}, high{};
+  };
+  /// Bounds of the sky above the envelope, `wanted` apart where edges are what keeps them apart.
+  [[nodiscard]] Bounds bounds(const Occluders& occluders, const Hiding& hiding, const ReceiverPacket& receivers, double wanted);
+
+  /// Where sky may be seen under an overhang.
+  struct Gaps {
+    std::span<const Row> borders;           ///< rows of wedges: it is below them
+    std::span<const std::uint8_t> reached;  ///< the wedges that lower borders reach into; there it may also be between edges
+  };
+  /// How much sky lies between the edges and the borders, at most.
+  [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps, const ReceiverPacket& receivers);
+  /// Rows of wedges: the lower borders of these edges above the horizons, or `others` where these are higher.
+  [[nodiscard]] std::span<const Row> find_lower_borders(EdgeLists undersides, const PacketHorizon& grounded,
+                                                        const PacketHorizon& lower_borders, const ReceiverPacket& receivers,
+                                                        std::span<const Row> others);
+
+  /// Rows of wedges, of the last call of either: their terms in it. By the cosine, but for packets that look up, what cancels
+  /// from wedge to wedge is left out, as `term_of` does after bounds().
+  struct Terms {
+    Rows low, high;  ///< after keep_terms()
+    Rows gaps;       ///< where some are reached
+  };
+  void keep_terms() { has_terms_ = true; }
+  [[nodiscard]] const Terms& terms() const { return terms_; }
+  [[nodiscard]] double term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const;
+  [[nodiscard]] const Wedge& wedge(std::size_t k) const { return wedges_[k]; }
+  [[nodiscard]] std::size_t size() const { return wedges_.size(); }
+
+ private:
+  /// A wedge that is not simple for a receiver.
+  struct Doubt {
+    std::uint32_t wedge = 0;
+    float low = 0.0F, high = 0.0F;
+    float turn = 0.0F, first = 0.0F, middle = 0.0F, last = 0.0F;  ///< the pair's envelope: WedgeEye
+    float lid = 0.0F;
+    bool is_unknown = false;
+    [[nodiscard]] float width() const { return high - low; }
+  };
+  /// One receiver of the packet.
+  struct Eye {
+    const Occluders& occluders;
+    const Hiding& hiding;
+    const ReceiverPacket& receivers;
+    std::size_t lane;
+  };
+
+  void draw(const Occluders& occluders, const ReceiverPacket& receivers, const std::uint8_t* asked);
+  SimpleSums sum_simple(const Hiding& hiding, const ReceiverPacket& receivers);
+  /// Those with bits, and all that are asked for who looks down.
+  void list_doubtful_wedges(const ReceiverPacket& receivers, const std::uint8_t* asked);
+  void find_doubts(const Eye& eye);
+  void put_pair(const Eye& eye, std::size_t k, std::size_t n, WedgePairs& pairs) const;
+  void put_edge(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
+  void put_plane(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
+  void put_doubt(const Eye& eye, std::size_t k, const PairsAnswer& answer, std::size_t n);
+  void resolve_doubts(const Eye& eye, double width, double wanted);
+  void resolve(const Eye& eye, Doubt& doubt);
+  void find_edges_above(const Eye& eye, const Doubt& doubt, const EdgesInWedges::InWedge& edges);
+  void find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, Doubt& doubt);
+  void add_level(const Wedge& wedge, double first, double last);
+  void add_edges(const Eye& eye, const EdgesInWedges::InWedge& edges, std::size_t k);
+  [[nodiscard]] float most_in_gap(float border, const ReceiverPacket& receivers, std::size_t lane, const Doubt& doubt) const;
+  [[nodiscard]] double most_sky_between(double low, double high, const Point3d& normal, const Wedge& wedge) const;
+  void keep_terms_of(std::size_t lane);
+
+  [[nodiscard]] std::size_t next(std::size_t k) const { return k + 1 < wedges_.size() ? k + 1 : 0; }
+  [[nodiscard]] std::int32_t number_at(std::size_t k, std::size_t lane) const {
+    return numbers_[k * ReceiverPacket::lanes + lane];
+  }
+  [[nodiscard]] float slope_at(std::size_t k, std::size_t lane) const { return slopes_[k * ReceiverPacket::lanes + lane]; }
+  [[nodiscard]] LowerHorizons lower_horizons() { return {lower_.front().data(), minima_.data()}; }
+
+  const AzimuthSampling& azimuths_;
+  SkyWeight weight_;
+  std::vector<Wedge> wedges_;
+  WedgeShape shape_{};
+  WedgeEnvelope envelope_;
+  EdgesInWedges edges_;
+  bool has_terms_ = false;
+  Terms terms_;
+  Rows none_;  ///< hides nothing
+  // Working memory, kept from packet to packet
+  WedgeWeight wedge_weight_ = WedgeWeight::cosine_up;
+  const float* slopes_ = nullptr;  ///< of the horizon, raised to the receivers' own planes
+  const std::int32_t* numbers_ = nullptr;
+  Rows own_slopes_;
+  std::vector<std::int32_t> own_numbers_;
+  Rows lower_, tops_, borders_;
+  std::vector<float> minima_;
+  std::vector<std::uint16_t> others_;  ///< a bit for each receiver for whom a wedge is not simple
+  std::array<std::vector<std::uint32_t>, ReceiverPacket::lanes> doubtful_;  ///< these wedges
+  std::vector<Doubt> doubts_;
+  std::vector<std::uint32_t> above_;
+  EndPlaces border_ends_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "farlod/point.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/silhouette_edges.hpp"
+#include "horizon/wedge_kernels.hpp"
+
+namespace farlod {
+
+using EdgeLists = std::span<const SilhouetteEdges* const>;
+
+/// The places where edges end, each once.
+class EndPlaces {
+ public:
+  /// The ends of the edges, as their numbers find them.
+  void find(EdgeLists edges, const BorderEnds& ends);
+  /// The same for edges without numbers; places may come more than once.
+  void find(EdgeLists edges);
+  [[nodiscard]] std::span<const EndBatch> batches() const { return batches_; }
+
+ private:
+  void clear();
+  void add(const Point3f& p);
+
+  std::vector<EndBatch> batches_;
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> stamps_;  ///< of places that were added since stamp_ was new
+  std::uint32_t stamp_ = 0;
+};
+
+/// The edges that may reach into the wedges of a packet. A wedge that nobody asks for costs nothing.
+class EdgesInWedges {
+ public:
+  /// The azimuths must outlive it.
+  explicit EdgesInWedges(const AzimuthSampling& azimuths) : azimuths_(azimuths), wedges_(azimuths.size()) {}
+  /// Begins a packet with these bounds. `edges` must live as long as it is asked.
+  void begin(EdgeLists edges, const PacketBounds& bounds);
+
+  struct InWedge {
+    bool is_known = false;
+    std::size_t size = 0;           ///< edges
+    std::vector<WedgeEdges> edges;  ///< sixteen at once; the last one fills up
+  };
+  /// Those of a wedge that may be steeper than a slope, which is the same at each call.
+  [[nodiscard]] const InWedge& reaching(std::size_t wedge, float slope);
+  /// Marks the wedges that some edge may reach into.
+  void mark_reached(std::span<std::uint8_t> wedges);
+
+ private:
+  void find_spans();
+  [[nodiscard]] EdgeSpans spans(std::size_t from);
+  void copy(std::uint32_t number, std::size_t to, InWedge& wedge) const;
+
+  const AzimuthSampling& azimuths_;
+  std::vector<const SilhouetteEdges*> lists_;
+  PacketBounds bounds_;
+  bool has_spans_ = false;
+  std::vector<InWedge> wedges_;
+  std::vector<std::uint32_t> first_, count_, found_;
+  std::vector<float> max_slope_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/kernels.hpp"
+#include "horizon/receiver_packet.hpp"
+
+/// The inner loops of bounds that hold between the azimuths. A *wedge* leads from an azimuth to the next one, and has the number
+/// of its first azimuth. Rows of wedges are arrays float[wedge][receiver], as those of horizons. docs/concepts.md, "The sky of a
+/// wedge".
+namespace farlod {
+
+/// What all wedges of even azimuths have in common.
+struct WedgeShape {
+  float angle, cosine, sine, tangent;
+  /// An edge that is no steeper than t at its ends within a wedge is nowhere steeper than this times t: 1 / cos(angle / 2).
+  float widened;
+};
+
+// --- Edges and their ends
+// --------------------------------------------------------------------------------------------------------
+
+/// Sixteen places where edges end; lanes without one are infinitely deep.
+struct EndBatch {
+  alignas(64) float x[16], y[16], z[16];
+};
+/// The lower one of the two horizons of each wedge: rows. And the least of all receivers: of each wedge, and of 2, 4, 8 ... from
+/// each on.
+struct LowerHorizons {
+  float *rows, *minima;
+};
+/// For each edge the wedges that it reaches into for some receiver, so many from the first on, around the turn; and a slope that
+/// it is nowhere steeper than.
+struct EdgeSpans {
+  std::uint32_t *first, *count;
+  float* max_slope;
+};
+struct WedgeEndKernels {
+  /// Wedges that are not `asked` get the largest float for the least of all receivers; null asks for all.
+  void (*find_lower)(const float* slopes, std::size_t azimuths, const std::uint8_t* asked, const LowerHorizons& lower);
+  /// tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is above `lower`.
+  void (*raise_tops)(std::span<const EndBatch> ends, const ReceiverPacket& receivers, const CenteredBox& box,
+                     const AzimuthView& azimuths, const LowerHorizons& lower, float* tops);
+  /// Sixteen spans a batch; lanes without an edge mean nothing.
+  void (*find_spans)(const EdgeBatches& edges, const PacketBounds& bounds, const AzimuthView& azimuths, const EdgeSpans& spans);
+  /// Lists the edges that reach into a wedge and may be steeper than a slope: their numbers. Returns how many.
+  std::size_t (*list_reaching)(const EdgeSpans& spans, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,
+                               std::uint32_t* numbers);
+};
+
+// --- The sky of wedges
+// -----------------------------------------------------------------------------------------------------------
+
+/// Numbers of horizons that are no edge's: the receiver's own plane, and what is behind a wall. −1: level, as in kernels.hpp.
+inline constexpr std::int32_t number_of_plane = -2, number_behind = -3;
+
+/// How the sky is weighed: by the cosine for receivers that look straight up, and for any; or by solid angle.
+enum class WedgeWeight : std::uint8_t { cosine_up, cosine, solid_angle };
+
+/// The horizons of edges, and the numbers of the edges.
+struct NumberedHorizon {
+  const float* slopes;
+  const std::int32_t* numbers;
+};
+/// Rows of wedges: the slopes below which everything else hides the sky at least, and at most.
+struct HidingRows {
+  const float *least, *most;
+};
+/// Rows of wedges: the lower borders of what overhangs; and the wedges in which these count.
+struct AskedBorders {
+  const float* borders;
+  const std::uint8_t* wedges;
+};
+/// The sky of simple wedges in radians, at least and at most. The terms of each wedge go to rows, unless they are null.
+struct SimpleSums {
+  alignas(64) float low[16], high[16];
+  float *low_rows = nullptr, *high_rows = nullptr;
+};
+
+/// Sixteen edges, from p to q, relative to a receiver.
+struct EdgesSeen {
+  alignas(64) float px[16], py[16], pz[16], qx[16], qy[16], qz[16];
+};
+/// Sixteen wedges of a receiver, with the edges that are highest at the first azimuth and at the last one.
+struct WedgePairs {
+  EdgesSeen first, last;
+  alignas(64) float cosine[16], sine[16];
+  alignas(64) float from[16], to[16];    ///< the horizons that were drawn at both azimuths
+  alignas(64) float top[16], least[16];  ///< below `top` is all that hides the sky of the wedge, and below `least` no sky
+  float normal_x, normal_y, normal_z;
+};
+/// What is known of them from both edges alone. Where one follows the other (τ); the heights of both in the picture plane, at the
+/// azimuths and there; and how far they are apart.
+struct PairsAnswer {
+  alignas(64) float turn[16], first[16], before[16], after[16], last[16], gap[16];
+  alignas(64) float low[16], high[16];  ///< bounds of the sky, in radians
+  alignas(64) float lid[16];            ///< a slope below which both hide all of the wedge
+  std::uint32_t unknown;                ///< a bit for each wedge that nothing is known of
+};
+/// Sixteen edges that may reach into a wedge.
+struct WedgeEdges {
+  alignas(64) float ax[16], ay[16], az[16], bx[16], by[16], bz[16];
+};
+/// A receiver's wedge, and heights in its picture plane at τ = 0, `turn` and the tangent of its angle.
+struct WedgeEye {
+  float x, y, z, cosine, sine, tangent, turn, first, middle, last;
+};
+
+struct WedgeSkyKernels {
+  /// Horizons raised to the receivers' own planes, below which they see nothing.
+  void (*raise_to_planes)(const float* slopes, const std::int32_t* numbers, const ReceiverPacket& receivers,
+                          const AzimuthView& azimuths, float* raised, std::int32_t* raised_numbers);
+  /// A wedge is simple where one edge is highest at both azimuths, and no end rises above its horizons (`tops`): there it hides
+  /// all that edges hide. Sums up the sky of these; sets tops = max(tops, both horizons), and a bit for each receiver for whom a
+  /// wedge is not simple. By the cosine, but for cosine_up, the terms of upright borders are left out, since they cancel from
+  /// wedge to wedge. Not for receivers that look down.
+  void (*sum_simple)(const NumberedHorizon& horizon, const HidingRows& hiding, const ReceiverPacket& receivers,
+                     const AzimuthView& azimuths, const WedgeShape& shape, WedgeWeight weight, std::uint16_t* others, float* tops,
+                     SimpleSums& sums);
+  /// The same for the sky between the edges and higher borders, at most: rows of it.
+  void (*find_simple_gaps)(const NumberedHorizon& horizon, const AskedBorders& asked, const ReceiverPacket& receivers,
+                           const AzimuthView& azimuths, const WedgeShape& shape, WedgeWeight weight, std::uint16_t* others,
+                           float* tops, float* gaps);
+  /// The sky of wedges that are not simple, from both edges alone, in the same terms.
+  void (*bound_pairs)(const WedgePairs& pairs, const WedgeShape& shape, WedgeWeight weight, PairsAnswer& answer);
+  /// The edges that may rise above an envelope through three heights: a bit for each.
+  std::uint32_t (*find_above)(const WedgeEdges& edges, const WedgeEye& eye);
+};
+
+}  // namespace farlod
