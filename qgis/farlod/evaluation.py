@@ -73,7 +73,7 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         self.add_choice("SKY", "Weight of the sky", sky, ["cosine", "solid"], advanced=True)
 
     def add_accuracy(self) -> None:
-        error = "Chooses azimuths and rays, and traces the whole city where the far maps are not sure enough."
+        error = "No value is farther from the true one: the whole city decides what is left open."
         self.add_optional_number("MAX_ERROR", "Largest error allowed", error, 0.0001, 1.0)
         bounds = QgsProcessingParameterBoolean("BOUNDS", "Lower and upper bounds, too", False)
         self.add(bounds, "A certain interval around each value: svf_low, svf_high; with svf_total also svf_total_low, svf_total_high.")

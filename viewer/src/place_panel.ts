@@ -96,10 +96,11 @@ export class PlacePanel {
   }
 }
 
-/** With as many digits as the value. */
+/** With as many digits as the value. Between bounds that are rounded away from each other, the true value lies, too. */
 function boundsText({ text, low, high }: PointAnswer): string {
-  const digits = text?.split(".")[1]?.length ?? 4, [least, most] = [low ?? 0, high ?? 1].map((bound) => bound.toFixed(digits));
-  return least === most ? "certain to the last digit" : `between ${least} and ${most}`;
+  const digits = text?.split(".")[1]?.length ?? 4, unit = 10 ** -digits, least = low ?? 0, most = high ?? 1;
+  if (least.toFixed(digits) === most.toFixed(digits)) return "certain to the last digit";
+  return `between ${(unit * Math.floor(least / unit)).toFixed(digits)} and ${(unit * Math.ceil(most / unit)).toFixed(digits)}`;
 }
 
 const percent = (share: number): string => `${(100 * share).toFixed(1)} %`;

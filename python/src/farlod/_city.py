@@ -282,9 +282,9 @@ class City:
         metric : {"cosine", "solid"}
             How directions are weighted: by the cosine to the normal (the view factor), or all alike (the share of solid angle).
         max_error : float, optional
-            Largest error allowed, 0.0001 to 1. Chooses azimuths and rays, and traces exactly where the far map is not enough.
+            Largest error allowed, 0.0001 to 1, for certain: the whole city decides what is left open.
         bounds : bool, default False
-            Whether to compute a certain lower and upper bound of each value, too.
+            Whether to compute bounds of each value, too, between which the true one of the packed city lies.
         **options
             See :class:`farlod.Options`.
 
