@@ -7,8 +7,6 @@
 namespace farlod::ingest::test::cityjson_places {
 namespace {
 
-using testing::HasSubstr;
-
 /// A roof of two squares (vertices 0 to 5), and a wall below one edge of it.
 constexpr const char* roofs_and_wall = "[[[0,1,4,3]],[[1,2,5,4]],[[0,3,7,6]]]";
 constexpr const char* vertices = "[[0,0,8],[10,0,8],[20,0,8],[0,10,8],[10,10,8],[20,10,8],[0,0,0],[0,10,0],[900,900,0]]";
@@ -152,7 +150,7 @@ TEST(CityJsonOrigins, ATemplateIsOfItsObjectAlone) {
                                  of_installation + "}");
     const std::string shared =
         geometry("2.2", "[[[0,1,2]]]", ",\"semantics\":{\"surfaces\":[{\"type\":\"WallSurface\"}],\"values\":[0]}");
-    return file.insert(file.rfind("}"), ",\"geometry-templates\":{\"templates\":[" + shared +
+    return file.insert(file.rfind('}'), ",\"geometry-templates\":{\"templates\":[" + shared +
                                             "],\"vertices-templates\":[[0,0,0],[3,0,0],[0,0,3]]}");
   };
   const auto with = [](std::string file, const std::string& building_id, const std::string& roof, const std::string& below) {
