@@ -76,7 +76,7 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         error = "No value is farther from the true one: the whole city decides what is left open."
         self.add_optional_number("MAX_ERROR", "Largest error allowed", error, 0.0001, 1.0)
         bounds = QgsProcessingParameterBoolean("BOUNDS", "Lower and upper bounds, too", False)
-        self.add(bounds, "A certain interval around each value: svf_low, svf_high; with svf_total also svf_total_low, svf_total_high.")
+        self.add(bounds, "An interval around each value: svf_low, svf_high; with svf_total also svf_total_low, svf_total_high.")
         verify = "So many random receivers are computed again, exactly; the log has the errors."
         self.add_optional_number("VERIFY", "Receivers to verify", verify, 0, 1000000000, whole=True, advanced=True)
         engines = ["auto", "horizon", "rays", "exact"]

@@ -87,8 +87,8 @@ void describe_sunlit(const Quantities&, Columns& columns) {
 void describe_total(const Quantities& q, Columns& columns) {
   columns.push_back({"svf_total", "1", "sky view factor with what passes the crowns of trees and comes past them"});
   if (q.svf_total_bounds) {
-    columns.push_back({"svf_total_low", "1", "certain lower bound of svf_total"});
-    columns.push_back({"svf_total_high", "1", "certain upper bound of svf_total"});
+    columns.push_back({"svf_total_low", "1", "lower bound of svf_total"});
+    columns.push_back({"svf_total_high", "1", "upper bound of svf_total"});
   }
   columns.push_back({"svfveg", "1", "1 - the sky behind crowns, weighted as in svf"});
 }
