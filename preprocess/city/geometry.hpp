@@ -15,6 +15,9 @@
 
 namespace farlod {
 
+/// Twice the signed area of a triangle with these sides: positive if b is to the left of a.
+[[nodiscard]] inline double across(Point2d a, Point2d b) { return a.x * b.y - a.y * b.x; }
+
 /// Whether two boxes share a point.
 [[nodiscard]] inline bool boxes_meet(const Box2d& a, const Box2d& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;

@@ -165,25 +165,39 @@ class BuildingCutter {
     }
   }
 
+  static FacetLook look_of(const TriangulatedFacet& f) {
+    return f.outward * f.area_vector_m2.z > 0.0 ? FacetLook::up : FacetLook::down;
+  }
+
   void find_borders() {
     EdgeTable table;
     // Most triangles share their three edges with others
     table.reserve(2 * triangle_count_);
     for (const TriangulatedFacet& f : facets_) {
-      const FacetLook look = f.outward * f.area_vector_m2.z > 0.0 ? FacetLook::up : FacetLook::down;
       for (const Triangle& t : f.triangulation.triangles)
-        table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c], look);
+        table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c], look_of(f));
     }
-    const std::vector<HorizonSegment> upper = table.horizon_edges();
-    result_.upper_pieces.reserve(upper.size());
-    result_.upper_borders.reserve(upper.size());
-    for (const HorizonSegment& edge : upper) {
+    result_.upper_borders = table.horizon_edges();
+    result_.upper_pieces.reserve(result_.upper_borders.size());
+    for (const HorizonSegment& edge : result_.upper_borders) {
       const auto pieces = cut_edge_unless_whole(edge, result_.only_cell, grid_, height_origin_m_);
       result_.upper_pieces.insert(result_.upper_pieces.end(), pieces.begin(), pieces.end());
-      result_.upper_borders.push_back({edge.segment, result_.upper_pieces.size()});
     }
     result_.undersides = undersides(table.edges());
-    if (has_undersides_above_floor()) result_.walls = wall_profiles(city_, building_);
+    if (result_.undersides.empty()) result_.upper_borders = {};
+    if (!has_undersides_above_floor()) return;
+    result_.walls = wall_profiles(city_, building_);
+    for (const EdgeSides& e : table.edges())
+      if (e.triangle_count() % 2 != 0) result_.loose_edges.push_back(e.edge());
+    find_slabs();
+  }
+
+  void find_slabs() {
+    for (const TriangulatedFacet& f : facets_)
+      for (const Triangle& t : f.triangulation.triangles) {
+        const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
+        if (const auto slab = slab_of(corners, look_of(f))) result_.slabs.push_back(*slab);
+      }
   }
 
   [[nodiscard]] bool has_undersides_above_floor() const {

@@ -14,6 +14,7 @@
 #include "package/tile_set.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/horizon_edges.hpp"
+#include "tiles/slab.hpp"
 #include "tiles/tiles.hpp"
 #include "tiles/undersides.hpp"
 
@@ -42,23 +43,19 @@ struct SurfacePiece {
   std::uint32_t surface = 0;  ///< place in BuildingPieces::surfaces
 };
 
-/// An edge that can be a horizon.
-struct UpperBorder {
-  Segment3d segment;           ///< grid frame
-  std::size_t pieces_end = 0;  ///< in BuildingPieces::upper_pieces, where its pieces end and the next one's begin
-};
-
 /// One building, triangulated and cut. Depends only on the building, the grid and the settings.
 struct BuildingPieces {
   std::vector<BuildingSurface> surfaces;
   std::vector<SurfacePiece> pieces;
-  std::vector<UpperBorder> upper_borders;
-  std::vector<CellEdge> upper_pieces;      ///< of the upper borders, one after the other
-  std::vector<HorizonSegment> undersides;  ///< including those on the ground; grid frame
+  std::vector<CellEdge> upper_pieces;         ///< of the edges that can be a horizon, grounded
+  std::vector<HorizonSegment> upper_borders;  ///< these edges, if the building has undersides; grid frame
+  std::vector<HorizonSegment> undersides;     ///< including those on the ground; grid frame
   /// The walls of a building with undersides above its lowest floor. Few others need them: there, wall_profiles gives them.
   std::optional<std::vector<WallProfile>> walls;
-  std::optional<Cell> only_cell;  ///< the cell of the whole building when it is not cut
-  std::vector<Problem> problems;  ///< without the source, which a building alone does not know; grid frame
+  std::vector<Slab> slabs;             ///< of such a building
+  std::vector<Segment3d> loose_edges;  ///< its edges of an odd number of triangles: where it is not closed
+  std::optional<Cell> only_cell;       ///< the cell of the whole building when it is not cut
+  std::vector<Problem> problems;       ///< without the source, which a building alone does not know; grid frame
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

@@ -32,13 +32,6 @@ double distance_from_line_m(const Point3d& p, const Segment3d& s) {
   return norm(cross(along, p - s.a)) / norm(along);
 }
 
-Point3d point_at(const Segment3d& s, double share) { return s.a + share * (s.b - s.a); }
-
-/// A part of a segment, in shares of its length.
-struct ShareStretch {
-  double from = 0.0, to = 1.0;
-};
-
 /// The part of `s` that `other` covers, where both lie on one line; nothing where they do not.
 std::optional<ShareStretch> shared_stretch(const Segment3d& s, const Segment3d& other) {
   // Project the ends of the other segment onto this one
@@ -57,16 +50,6 @@ std::optional<ShareStretch> shared_stretch(const Segment3d& s, const Segment3d& 
   for (const double share : {shared.from, shared.to})
     if (distance_from_line_m(on_other(share), s) > on_line_m) return std::nullopt;
   return shared;
-}
-
-/// `stretches` without the part `taken`.
-std::vector<ShareStretch> without(const std::vector<ShareStretch>& stretches, const ShareStretch& taken) {
-  std::vector<ShareStretch> rest;
-  for (const ShareStretch& s : stretches) {
-    if (s.from < taken.from) rest.push_back({s.from, std::min(s.to, taken.from)});
-    if (s.to > taken.to) rest.push_back({std::max(s.from, taken.to), s.to});
-  }
-  return rest;
 }
 
 /// Edges ordered by their west end, to find those near an edge.
@@ -123,6 +106,39 @@ CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, dou
 constexpr double least_extent_m = 1e-4;
 
 }  // namespace
+
+std::vector<ShareStretch> without(const std::vector<ShareStretch>& stretches, const ShareStretch& taken) {
+  std::vector<ShareStretch> rest;
+  for (const ShareStretch& s : stretches) {
+    if (s.from < taken.from) rest.push_back({s.from, std::min(s.to, taken.from)});
+    if (s.to > taken.to) rest.push_back({std::max(s.from, taken.to), s.to});
+  }
+  return rest;
+}
+
+std::vector<ShareStretch> without(std::vector<ShareStretch> stretches, const std::vector<ShareStretch>& taken) {
+  for (const ShareStretch& s : taken) stretches = without(stretches, s);
+  return stretches;
+}
+
+std::vector<ShareStretch> joined(std::vector<ShareStretch> stretches, double give) {
+  std::sort(stretches.begin(), stretches.end(), [](const ShareStretch& a, const ShareStretch& b) { return a.from < b.from; });
+  std::vector<ShareStretch> result;
+  for (const ShareStretch& s : stretches)
+    if (!result.empty() && s.from <= result.back().to + give)
+      result.back().to = std::max(result.back().to, s.to);
+    else
+      result.push_back(s);
+  return result;
+}
+
+std::vector<ShareStretch> tidied(std::vector<ShareStretch> stretches, double give) {
+  stretches = joined(std::move(stretches), give);
+  if (!stretches.empty() && stretches.front().from <= give) stretches.front().from = 0.0;
+  if (!stretches.empty() && stretches.back().to >= 1.0 - give) stretches.back().to = 1.0;
+  std::erase_if(stretches, [give](const ShareStretch& s) { return s.to - s.from <= give; });
+  return stretches;
+}
 
 void EdgeSides::add(const Point3d& opposite, FacetLook look) {
   ++triangle_count_;

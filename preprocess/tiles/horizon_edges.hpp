@@ -21,6 +21,20 @@ struct Segment3d {
   bool operator==(const Segment3d&) const = default;
 };
 
+[[nodiscard]] inline Point3d point_at(const Segment3d& s, double share) { return s.a + share * (s.b - s.a); }
+
+/// A part of a segment, in shares of its length.
+struct ShareStretch {
+  double from = 0.0, to = 1.0;
+};
+/// `stretches` without the part `taken`.
+[[nodiscard]] std::vector<ShareStretch> without(const std::vector<ShareStretch>& stretches, const ShareStretch& taken);
+[[nodiscard]] std::vector<ShareStretch> without(std::vector<ShareStretch> stretches, const std::vector<ShareStretch>& taken);
+/// The stretches sorted, those joined that are at most `give` apart.
+[[nodiscard]] std::vector<ShareStretch> joined(std::vector<ShareStretch> stretches, double give);
+/// The same; at both ends too, and without those that are no longer than `give`.
+[[nodiscard]] std::vector<ShareStretch> tidied(std::vector<ShareStretch> stretches, double give);
+
 /// A segment that can be a silhouette, and the slopes of the facets beside it.
 struct HorizonSegment {
   Segment3d segment;

@@ -14,6 +14,7 @@
 #include "base/expects.hpp"
 #include "city/geometry.hpp"
 #include "plausibility/standing_heights.hpp"
+#include "tiles/border_roles.hpp"
 #include "tiles/building_bases.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/tile_filler.hpp"
@@ -118,9 +119,10 @@ class TileCutter {
  private:
   /// A building with lower borders that none of its own facets closes.
   struct OverhangingBuilding {
-    BuildingPieces pieces;  ///< its borders and walls
+    std::vector<CellEdge> upper_pieces;  ///< all grounded
+    std::vector<HorizonSegment> upper_borders;
     std::vector<CellEdge> undersides;
-    double foundation_top_m = -std::numeric_limits<double>::infinity();
+    std::optional<Cell> only_cell;
     struct {
       std::uint32_t begin = 0, end = 0;
     } surfaces;  ///< in TileSet::surfaces
@@ -229,18 +231,21 @@ class TileCutter {
         place_foundation(building, cut_building, *foundation, report);
         foundation_top_m = foundation->top_m;
       }
-    if (undersides.empty()) return place_upper_borders(cut_building, nullptr);
+    if (undersides.empty()) {
+      for (const CellEdge& edge : cut_building.upper_pieces) place(edge);
+      return;
+    }
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
-    overhanging.foundation_top_m = foundation_top_m;
+    overhanging.only_cell = cut_building.only_cell;
     overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
     for (const HorizonSegment& underside : undersides) {
       const auto edges = cut_edge_unless_whole(underside, cut_building.only_cell, grid_, tiles_.height_origin_m);
       overhanging.undersides.insert(overhanging.undersides.end(), edges.begin(), edges.end());
     }
     if (!cut_building.walls) cut_building.walls = wall_profiles(city_, building);
-    cut_building.surfaces = {};
-    cut_building.pieces = {};
-    overhanging.pieces = std::move(cut_building);
+    overhanging.upper_borders = upper_borders_with_roles(
+        cut_building, [this, foundation_top_m](Point2d p) { return std::max(ground_->height_at(p), foundation_top_m); });
+    overhanging.upper_pieces = std::move(cut_building.upper_pieces);
   }
 
   /// Places the walls and the lid of a foundation as one more surface of the building that was placed last.
@@ -298,36 +303,18 @@ class TileCutter {
           open.push_back({underside.cell, part});
       overhanging_[n].undersides = std::move(open);
     });
-    for (OverhangingBuilding& building : overhanging_) {
+    for (const OverhangingBuilding& building : overhanging_) {
       // A roof whose borders all touch walls shows no sky below them. A receiver below it still has it overhead
       for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
-      if (building.undersides.empty()) {
-        place_upper_borders(building.pieces, nullptr);
-        continue;
-      }
-      const GroundedWalls walls(*std::move(building.pieces.walls), [this, &building](Point2d p) {
-        return std::max(ground_->height_at(p), building.foundation_top_m);
-      });
-      place_upper_borders(building.pieces, &walls);
+      if (building.undersides.empty())
+        for (const CellEdge& edge : building.upper_pieces) place(edge);
+      else
+        for (const HorizonSegment& border : building.upper_borders)
+          for (const CellEdge& edge : cut_edge_unless_whole(border, building.only_cell, grid_, tiles_.height_origin_m))
+            place(edge);
       for (const CellEdge& underside : building.undersides) place(underside);
     }
     overhanging_.clear();
-  }
-
-  /// `walls`: the grounded walls of a building that has open lower borders; null for a building that is grounded as a whole. Of a
-  /// building with open lower borders, only the grounded walls hide everything below them.
-  void place_upper_borders(BuildingPieces& building, const GroundedWalls* walls) {
-    std::size_t piece = 0;
-    for (const UpperBorder& border : building.upper_borders) {
-      const bool is_grounded = walls == nullptr || walls->close_below(border.segment);
-      for (; piece < border.pieces_end; ++piece) {
-        CellEdge& edge = building.upper_pieces[piece];
-        edge.edge.role = is_grounded ? EdgeRole::grounded : EdgeRole::overhang;
-        // Only the wall is known to be grounded, not the roof behind it: the border faces all eyes
-        if (is_grounded && walls != nullptr) edge.edge.adjacent = {};
-        place(edge);
-      }
-    }
   }
 
   /// The parts of undersides that are above the ground.

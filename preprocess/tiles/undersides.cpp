@@ -9,13 +9,13 @@
 #include <limits>
 #include <utility>
 
+#include "city/geometry.hpp"
+
 namespace farlod::tiles {
 namespace {
 
 /// A facet is vertical when all its points lie within this distance of a line in plan.
 constexpr double upright_offset_m = 0.03;
-
-double across(Point2d a, Point2d b) { return a.x * b.y - a.y * b.x; }
 
 /// Index of the point of the ring that is farthest from `p` in plan.
 std::size_t farthest_from(Point2d p, std::span<const Point3d> ring) {

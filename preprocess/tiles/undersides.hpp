@@ -43,6 +43,7 @@ class GroundedWalls {
 
   /// Whether the segment runs along the upper border of a grounded wall, or below it.
   [[nodiscard]] bool close_below(const Segment3d& segment) const;
+  [[nodiscard]] std::span<const WallProfile> walls() const { return grounded_; }
 
  private:
   [[nodiscard]] bool reach_up_to(Point2d p, double z_m) const;

@@ -379,7 +379,7 @@ TEST_P(EdgesOfATown, ComeBackAsTheSameSet) {
     }
   }
   EXPECT_GT(sides, 10'000U) << "the scene tests nothing";
-  EXPECT_LT(loose, sides / 50) << "naming edges as sides saves nothing";
+  EXPECT_LT(loose, sides / 40) << "naming edges as sides saves nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EdgesOfATown, testing::Values(Assign::clip, Assign::whole),
