@@ -97,10 +97,10 @@ std::vector<HorizonSegment> without_those_below_grounded(const std::vector<Horiz
 std::vector<HorizonSegment> upper_borders_with_roles(BuildingPieces& building, const GroundHeightAt& ground_height) {
   const GroundedWalls walls(*std::exchange(building.walls, std::nullopt), ground_height);
   for (Slab& slab : building.slabs) slab.on_ground = stands_on_ground(slab, ground_height);
-  // The inside of a closed building is known
-  const bool is_closed = building.loose_edges.empty();
+  // The inside of a closed building is known. Without slabs, nothing is: most buildings need none
+  const bool is_closed = building.loose_edges.empty(), is_known = !building.slabs.empty();
   const SolidToGround solid(is_closed ? std::span<const Slab>(building.slabs) : std::span<const Slab>());
-  const WalledIn walled_in(walls.walls(), building.slabs, building.loose_edges);
+  const WalledIn walled_in(is_known ? walls.walls() : std::span<const WallProfile>(), building.slabs, building.loose_edges);
   const std::vector<ShareStretch> whole{{}};
   std::vector<HorizonSegment> result;
   for (HorizonSegment border : building.upper_borders) {
