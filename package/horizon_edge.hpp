@@ -47,6 +47,12 @@ struct AdjacentSlopes {
 /// that sky may be seen below its top. Its receivers therefore stand ahead of its top.
 inline constexpr double max_lean_m = 0.05;
 
+/// A grounded border may lie over a recess, such as a window set back. It hides all below it for all eyes but those in the
+/// recess. These see it from below its facets, at most so far away in the plan at right angles to the border.
+inline constexpr double most_recess_depth_m = 1.0;
+/// The largest distance of two places of a recess in the plan.
+inline constexpr double most_recess_extent_m = 4.0;
+
 /// What an edge says about the sky below it. In the upright half-plane of an azimuth, a connected piece of the city hides all
 /// slopes between its lowest and its highest one. Proof and use: docs/concepts.md, "What is grounded, and what overhangs".
 enum class EdgeRole : std::uint16_t {

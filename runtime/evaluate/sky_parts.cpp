@@ -7,6 +7,7 @@
 #include "base/cancellation.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "horizon/recesses.hpp"
 #include "horizon/residual_horizon.hpp"
 
 namespace farlod {
@@ -28,10 +29,17 @@ bool is_in_gap(const OverhangHorizons& h, std::size_t azimuth, float slope) {
 OverhangHorizons drawn_horizons(const AzimuthSampling& azimuths, const ReceiverPacket& packet, const FarHorizon& far,
                                 const CellSilhouettes& silhouettes, OverhangGeometry& overhangs) {
   OverhangHorizons horizons(azimuths);
-  ResidualHorizon(far, azimuths).raise_to_estimate(packet, horizons.grounded);
+  ResidualHorizon residual(far, azimuths);
+  const auto begin = [&residual](const ReceiverPacket& receivers, PacketHorizon& horizon) {
+    residual.raise_to_estimate(receivers, horizon);
+  };
+  begin(packet, horizons.grounded);
   horizons.grounded.raise(silhouettes.grounded, packet);
+  Recesses recesses(azimuths, silhouettes);
+  const Overhead overhead = recesses.overhead_of(packet, overhangs.receivers_below(packet));
+  recesses.draw_again(packet, overhead, begin, horizons.grounded);
   horizons.upper_borders = horizons.lower_borders = horizons.grounded;
-  horizons.draw_overhangs(silhouettes, packet, overhangs.receivers_below(packet), FarGapEnd::lowest);
+  horizons.draw_overhangs(silhouettes, packet, overhead, FarGapEnd::lowest);
   horizons.lower_borders.lower_to(horizons.upper_borders);
   return horizons;
 }

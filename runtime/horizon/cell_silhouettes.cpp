@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "base/expects.hpp"
 #include "occlusion/placed_mesh.hpp"
@@ -11,16 +12,31 @@
 namespace farlod {
 namespace {
 
-void add(const HorizonEdge& edge, Point2d shift_m, CellSilhouettes& silhouettes, OverhangEdges& overhangs) {
-  const HorizonEdge in_cell{placed(edge.a, shift_m), placed(edge.b, shift_m), edge.adjacent, edge.role};
+HorizonEdge placed(const HorizonEdge& e, Point2d shift_m) {
+  return {placed(e.a, shift_m), placed(e.b, shift_m), e.adjacent, e.role};
+}
+
+void add(const HorizonEdge& edge, CellSilhouettes& silhouettes, OverhangEdges& overhangs) {
   switch (edge.role) {
     case EdgeRole::grounded:
-      return silhouettes.grounded.add(in_cell);
+      return silhouettes.grounded.add(edge);
     case EdgeRole::overhang:
-      return overhangs.overhangs.add(in_cell);
+      return overhangs.overhangs.add(edge);
     case EdgeRole::underside:
-      return overhangs.undersides.add(in_cell);
+      return overhangs.undersides.add(edge);
   }
+}
+
+/// A border over a recess has a facet that is not a wall, and lies above the eye and at most so far from it.
+bool may_be_over_recess(const HorizonEdge& e, const ReceiverBox& eyes) {
+  constexpr std::int8_t wall = AdjacentSlopes::straight_down;
+  constexpr auto reach_m = static_cast<float>(1.1 * most_recess_depth_m);
+  if (e.role != EdgeRole::grounded || (e.adjacent.left == wall && e.adjacent.right == wall)) return false;
+  const auto is_near = [](float a, float b, float low, float high) {
+    return std::min(a, b) <= high + reach_m && std::max(a, b) >= low - reach_m;
+  };
+  return std::max(e.a.z, e.b.z) > eyes.low.z && is_near(e.a.x, e.b.x, eyes.low.x, eyes.high.x) &&
+         is_near(e.a.y, e.b.y, eyes.low.y, eyes.high.y);
 }
 
 void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
@@ -40,13 +56,18 @@ CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const 
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
     const Cell neighbor = near.cell_at(n);
     const Point2d shift_m = grid.corner_of(neighbor) - grid.corner_of(cell);
-    package.tile(neighbor).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, silhouettes, silhouettes.near); });
+    package.tile(neighbor).visit_edges([&](const HorizonEdge& e) {
+      const HorizonEdge in_cell = placed(e, shift_m);
+      add(in_cell, silhouettes, silhouettes.near);
+      if (may_be_over_recess(in_cell, box)) silhouettes.over_recesses.push_back(in_cell);
+    });
   }
   // Far: the explicit edges that matter in the receivers' layers. Their squares do not count: farlod-pack makes one square a
   // cell, and an explicit edge drawn in another square hides what the city hides there too
   const std::uint32_t layers = far.layers_met_from(box.low.z, box.high.z);
   for (const package::ExplicitOccluder& n : far.occluders.explicit_edges)
-    if ((n.layers & layers) != 0) add(far.occluders.edges[n.row], far.occluders.cell_from_block_m, silhouettes, silhouettes.far);
+    if ((n.layers & layers) != 0)
+      add(placed(far.occluders.edges[n.row], far.occluders.cell_from_block_m), silhouettes, silhouettes.far);
   // Leave out what faces away, and sort from near to far
   silhouettes.grounded = silhouettes.grounded.facing(box);
   keep_facing(silhouettes.near, box);

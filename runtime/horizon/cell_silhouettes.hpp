@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "base/grid.hpp"
 #include "horizon/silhouette_edges.hpp"
@@ -28,6 +29,8 @@ struct CellOverhangs {
 
 struct CellSilhouettes : CellOverhangs {
   SilhouetteEdges grounded;  ///< near and far
+  /// Those that may lie over recesses (most_recess_depth_m) of receivers in the box, whether they face them or not.
+  std::vector<HorizonEdge> over_recesses;
   BorderEnds upper_ends;  ///< of the upper borders: `grounded`, near.overhangs, far.overhangs, which are numbered in this order
 
   /// Numbers the upper borders, and finds their ends.

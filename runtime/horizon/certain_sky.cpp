@@ -48,12 +48,14 @@ void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const 
   if (has_overhangs()) upper_ends_.find(upper, silhouettes_.upper_ends);
 }
 
-CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below) {
+CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead) {
   residual_.find_in_wedges(receivers, in_wedges_);
-  Open sky = open_sky(grounded, receivers, below);
+  Open sky = open_sky(grounded, receivers, overhead.below);
   Bounds bounds;
   for (std::size_t l = 0; l < receivers.count; ++l) {
-    if (allowed_) decide(receivers, l, has_bit(below, l), sky, bounds);
+    if (has_bit(overhead.in_recess, l))
+      sky.gaps[l] = static_cast<double>(envelope_.size()) * most_in_recess(receivers, l, overhead) / turn_rad;
+    if (allowed_) decide(receivers, l, overhead, sky, bounds);
     bounds.low[l] = static_cast<float>(std::clamp(sky.sky.low[l] - rounding_of_bounds, 0.0, 1.0));
     bounds.high[l] = static_cast<float>(std::clamp(sky.sky.high[l] + sky.gaps[l] + rounding_of_bounds, 0.0, 1.0));
   }
@@ -134,10 +136,18 @@ std::vector<std::size_t> CertainSky::OpenWedges::widest_first() const {
   return wedges;
 }
 
-void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, bool is_below, Open& open, Bounds& bounds) {
+double CertainSky::most_in_recess(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead) const {
+  if (!has_bit(overhead.in_recess, l)) return 0.0;
+  // By the cosine, one azimuth tells at most √(1 + π²/4) of a receiver that leans, and 1 of a level one
+  const bool is_level = weight_ == SkyWeight::solid_angle || receivers.normal_z[l] == 1.0F;
+  return (is_level ? 1.0 : 2.0) * turn_rad / static_cast<double>(envelope_.size());
+}
+
+void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead, Open& open, Bounds& bounds) {
   const double allowed = std::max(0.0, 2.0 * (allowed_->error - rounding_of_bounds));
   if (open.width(l) <= allowed) return;
-  const OpenWedges wedges{envelope_, reached_, l, is_below};
+  const bool is_below = has_bit(overhead.below, l);
+  const OpenWedges wedges{envelope_, reached_, l, is_below, most_in_recess(receivers, l, overhead)};
   const auto narrower = [&](std::size_t a, std::size_t b) { return wedges.width(a) < wedges.width(b); };
   std::vector<std::size_t> widest = wedges.widest_first();
   double left = open.width(l);

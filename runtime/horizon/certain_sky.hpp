@@ -11,6 +11,7 @@
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/exact_sky.hpp"
+#include "horizon/overhangs.hpp"
 #include "horizon/packet_envelope.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -54,8 +55,8 @@ class CertainSky {
     std::uint32_t decided = 0;
     std::uint64_t wedges = 0;
   };
-  /// For a packet of the group, its horizon, and a bit for each receiver below an overhang.
-  [[nodiscard]] Bounds bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below);
+  /// For a packet of the group, and its horizon. For receivers in recesses, only the whole city knows bounds.
+  [[nodiscard]] Bounds bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead);
 
  private:
   /// What is known of a packet, before rounding.
@@ -80,11 +81,13 @@ class CertainSky {
     const std::vector<std::uint8_t>& reached;
     std::size_t lane;
     bool is_below;
+    double most_in_recess;  ///< of a wedge, where the receiver is in one; else 0
     [[nodiscard]] double low(std::size_t k) const { return is_below ? 0.0 : static_cast<double>(envelope.terms().low[k][lane]); }
     [[nodiscard]] double high(std::size_t k) const {
       return is_below ? 0.0 : static_cast<double>(envelope.terms().high[k][lane]);
     }
     [[nodiscard]] double gap(std::size_t k) const {
+      if (most_in_recess > 0.0) return most_in_recess;
       return reached[k] == 0 ? 0.0 : static_cast<double>(envelope.terms().gaps[k][lane]);
     }
     [[nodiscard]] double width(std::size_t k) const;
@@ -93,7 +96,9 @@ class CertainSky {
   /// The term of a wedge by the whole city.
   [[nodiscard]] double exact_term(const ReceiverPacket& receivers, std::size_t lane, bool is_below, std::size_t wedge);
   /// Decides wedges of a receiver by the whole city, the widest first, until its bounds are close enough.
-  void decide(const ReceiverPacket& receivers, std::size_t lane, bool is_below, Open& open, Bounds& bounds);
+  void decide(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead, Open& open, Bounds& bounds);
+  /// The most that a wedge of a receiver in a recess may see of the sky.
+  [[nodiscard]] double most_in_recess(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead) const;
 
   const CellSilhouettes& silhouettes_;
   const ResidualHorizon& residual_;

@@ -37,6 +37,7 @@ HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, 
       jump_places_(jumps),
       residual_(far, azimuths),
       group_(azimuths),
+      recesses_(azimuths, silhouettes),
       jumps_(azimuths),
       horizons_(azimuths, PacketHorizon::Edges::tracked) {}
 
@@ -89,9 +90,17 @@ void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets
 }
 
 void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answer) {
-  const std::uint32_t below = overhangs_.receivers_below(receivers);
+  const Overhead overhead = recesses_.overhead_of(receivers, overhangs_.receivers_below(receivers));
+  const auto begin = [this](const ReceiverPacket& packet, PacketHorizon& horizon) {
+    residual_.raise_to_estimate(packet, horizon);
+  };
+  recesses_.draw_again(receivers, overhead, begin, horizons_.grounded);
+  evaluate(receivers, overhead, answer);
+}
+
+void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& overhead, PacketAnswer& answer) {
   // Without overhangs in sight, the sky above it is the answer
-  if (below == 0 && in_sight_.empty()) {
+  if (overhead.below == 0 && in_sight_.empty()) {
     const auto [sky, correction] = sky_above(horizons_.grounded, receivers);
     corrections_ = correction;
     for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = answer.drawn[l] = {sky[l], sky[l], sky[l]};
@@ -102,7 +111,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
   // Else it is the sky above the upper borders, plus what is seen in the gaps below the lower borders
   horizons_.upper_borders = horizons_.grounded;
   horizons_.lower_borders.set_slopes(horizons_.grounded);
-  horizons_.draw_overhangs(in_sight_, receivers, below, FarGapEnd::lowest);
+  horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::lowest);
   const auto [sky, correction] = sky_above(horizons_.upper_borders, receivers);
   corrections_ = correction;
   const SkyInGaps gaps = sky_in_gaps(receivers);
@@ -115,11 +124,13 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
 }
 
 void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer) {
-  const std::uint32_t below = overhangs_.receivers_below(receivers);
-  const CertainSky::Bounds bounds = certain().bounds(horizons_.grounded, receivers, below);
-  const SkyAtAzimuths at_azimuths = profile_ ? bounds_at_azimuths(receivers, below) : SkyAtAzimuths{};
+  const Overhead overhead = recesses_.overhead_of(receivers, overhangs_.receivers_below(receivers));
+  recesses_.draw_again(
+      receivers, overhead, [](const ReceiverPacket&, PacketHorizon&) {}, horizons_.grounded);
+  const CertainSky::Bounds bounds = certain().bounds(horizons_.grounded, receivers, overhead);
+  const SkyAtAzimuths at_azimuths = profile_ ? bounds_at_azimuths(receivers, overhead) : SkyAtAzimuths{};
   residual_.raise_to_estimate(receivers, horizons_.grounded);
-  evaluate(receivers, answer);
+  evaluate(receivers, overhead, answer);
   for (std::size_t l = 0; l < receivers.count; ++l) {
     SvfInterval& svf = answer.svf[l];
     const float drawn = svf.estimate;
@@ -137,7 +148,7 @@ CertainSky& HorizonEngine::certain() {
   return *certain_;
 }
 
-HorizonEngine::SkyAtAzimuths HorizonEngine::bounds_at_azimuths(const ReceiverPacket& receivers, std::uint32_t below) {
+HorizonEngine::SkyAtAzimuths HorizonEngine::bounds_at_azimuths(const ReceiverPacket& receivers, const Overhead& overhead) {
   SkyAtAzimuths sky;
   const PacketHorizon without_residual = horizons_.grounded;
   // The most: sky above the residual's low bound, and all of the gaps, up to the highest borders
@@ -145,7 +156,7 @@ HorizonEngine::SkyAtAzimuths HorizonEngine::bounds_at_azimuths(const ReceiverPac
   horizons_.lower_borders.set_slopes(horizons_.grounded);
   residual_.raise_to_low(receivers, horizons_.upper_borders);
   residual_.raise_to_overhang(receivers, horizons_.lower_borders);
-  horizons_.draw_overhangs(in_sight_, receivers, below, FarGapEnd::highest);
+  horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::highest);
   const Lanes in_gaps = sum(horizons_.find_sky_in_gaps(weight_, receivers, gap_rows_));
   sky.high = horizons_.upper_borders.sky_above(weight_, receivers);
   for (std::size_t l = 0; l < sky.high.size(); ++l) sky.high[l] += in_gaps[l];

@@ -19,6 +19,7 @@
 #include "horizon/overhangs.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "horizon/recesses.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "horizon/sky_partition.hpp"
 #include "horizon/sky_profile.hpp"
@@ -84,6 +85,11 @@ class HorizonEngine {
   /// Answers one packet, whose grounded horizon is drawn.
   void evaluate(const ReceiverPacket& receivers, PacketAnswer& answer);
   void evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer);
+  void evaluate(const ReceiverPacket& receivers, const Overhead& overhead, PacketAnswer& answer);
+  /// Overhangs that may rise above horizons: all of them above those of receivers in recesses, which are lower than others.
+  [[nodiscard]] const CellOverhangs& in_sight(const Overhead& overhead) const {
+    return overhead.in_recess != 0 ? silhouettes_ : in_sight_;
+  }
   /// The sky seen in gaps, and a bit for each receiver that needs rays for it.
   struct SkyInGaps {
     Lanes sky{};
@@ -103,7 +109,7 @@ class HorizonEngine {
   struct SkyAtAzimuths {
     Lanes low{}, high{};
   };
-  [[nodiscard]] SkyAtAzimuths bounds_at_azimuths(const ReceiverPacket& receivers, std::uint32_t below);
+  [[nodiscard]] SkyAtAzimuths bounds_at_azimuths(const ReceiverPacket& receivers, const Overhead& overhead);
   CertainSky& certain();
 
   const AzimuthSampling& azimuths_;
@@ -118,6 +124,7 @@ class HorizonEngine {
   ProfileRows profile_rows_ = ProfileRows::sky;
   ResidualHorizon residual_;
   PacketGroup group_;
+  Recesses recesses_;
   HorizonJumps jumps_;
   // Working memory, kept from packet to packet
   std::vector<PacketHorizon> grounded_;  ///< of each packet

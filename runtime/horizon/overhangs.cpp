@@ -113,7 +113,7 @@ std::uint32_t OverhangGeometry::receivers_below(const ReceiverPacket& r) const {
   return bits;
 }
 
-void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, std::uint32_t below,
+void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, const Overhead& overhead,
                                       FarGapEnd far_end) {
   // First the far city by itself. Where no lower border of it is above the grounded horizon, it is joined with what is near
   upper_borders.raise(overhangs.far.overhangs, receivers);
@@ -127,8 +127,9 @@ void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const Rece
   // Then the near overhangs; a receiver below one sees no sky above it
   lower_borders.raise_to(grounded);
   upper_borders.raise(overhangs.near.overhangs, receivers);
-  upper_borders.close(below);
+  upper_borders.close(overhead.below);
   lower_borders.raise(overhangs.near.undersides, receivers);
+  lower_borders.close(overhead.in_recess);
 }
 
 std::span<const PacketHorizon::Row> OverhangHorizons::find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,

@@ -56,6 +56,12 @@ class OverhangGeometry {
   std::optional<Occluder> scene_;
 };
 
+/// A bit for each receiver.
+struct Overhead {
+  std::uint32_t below = 0;      ///< below an overhang: it sees no sky above it
+  std::uint32_t in_recess = 0;  ///< of these, in a recess of a building (Recesses): only rays tell what it sees
+};
+
 /// Which of several lower borders of the far city, one above the other, a gap ends at.
 enum class FarGapEnd : std::uint8_t {
   highest,  ///< an upper bound of the sky: all below the highest border may be open
@@ -81,9 +87,10 @@ struct OverhangHorizons {
   PacketHorizon lower_borders, upper_borders;
   PacketHorizon far_lower_borders, far_upper_borders;  ///< of the far city alone
 
-  /// Draws overhangs above `grounded`. `below` are the bits of the receivers below an overhang. `upper_borders` may hold the
+  /// Draws overhangs above `grounded`. `upper_borders` may hold the
   /// residual horizon's already, and with FarGapEnd::highest `lower_borders` too; they must not be lower than `grounded`.
-  void draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, std::uint32_t below, FarGapEnd far_end);
+  void draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, const Overhead& overhead,
+                      FarGapEnd far_end);
   /// The sky in the gaps, a row for each azimuth; no rows where there is no gap. Afterwards `lower_borders` and the far horizons
   /// are the ends of these gaps.
   [[nodiscard]] std::span<const PacketHorizon::Row> find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,

@@ -61,6 +61,18 @@ class PacketHorizon {
   /// Makes the horizons of the receivers with set bits infinite: they see no sky.
   void close(std::uint32_t receivers);
 
+  /// Makes the horizon of one receiver its other one, or raises it to that. `other` tracks its edges.
+  void copy_lane(std::size_t lane, const PacketHorizon& other) {
+    for (std::size_t k = 0; k < slopes_.size(); ++k) slopes_[k][lane] = other.slopes_[k][lane];
+    for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k][lane] = other.numbers_[k][lane];
+  }
+  void raise_lane(std::size_t lane, const PacketHorizon& other) {
+    for (std::size_t k = 0; k < slopes_.size(); ++k) {
+      if (other.slopes_[k][lane] <= slopes_[k][lane]) continue;
+      slopes_[k][lane] = other.slopes_[k][lane];
+      if (!numbers_.empty()) numbers_[k][lane] = other.numbers_[k][lane];
+    }
+  }
   /// Makes the slopes those of other horizons; of which edges they are is unknown.
   void set_slopes(const PacketHorizon& other);
   /// The number of the edge (SilhouetteEdges::number) that a horizon belongs to; −1 if it is that of a far map, or level. Of

@@ -23,6 +23,7 @@ RayEngine::RayEngine(const DirectionSampling& directions, const FarHorizon& far,
       wants_bounds_(wants_bounds),
       stop_(std::move(stop)),
       residual_(far, directions.azimuths()),
+      recesses_(directions.azimuths(), silhouettes),
       for_estimate_(directions.azimuths()),
       for_high_(directions.azimuths()),
       for_low_(directions.azimuths()) {}
@@ -50,23 +51,32 @@ std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
 void RayEngine::draw_horizons(std::span<const Receiver> receivers) {
   packet_ = {};
   for (const Receiver& r : receivers) packet_.add(r);
-  const std::uint32_t below = overhangs_.receivers_below(packet_);
+  const Overhead overhead = recesses_.overhead_of(packet_, overhangs_.receivers_below(packet_));
   // The estimate: the residual city is grounded
+  const auto begin = [this](const ReceiverPacket& packet, PacketHorizon& horizon) {
+    residual_.raise_to_estimate(packet, horizon);
+  };
   for_estimate_.grounded.clear();
-  residual_.raise_to_estimate(packet_, for_estimate_.grounded);
+  begin(packet_, for_estimate_.grounded);
   for_estimate_.grounded.raise(silhouettes_.grounded, packet_);
+  recesses_.draw_again(packet_, overhead, begin, for_estimate_.grounded);
   for_estimate_.upper_borders = for_estimate_.lower_borders = for_estimate_.grounded;
-  for_estimate_.draw_overhangs(silhouettes_, packet_, below, FarGapEnd::lowest);
+  for_estimate_.draw_overhangs(silhouettes_, packet_, overhead, FarGapEnd::lowest);
   for_estimate_.lower_borders.lower_to(for_estimate_.upper_borders);
-  if (!wants_bounds_) return;
+  if (wants_bounds_) draw_bounds(overhead);
+}
+
+void RayEngine::draw_bounds(const Overhead& overhead) {
   throw_if_cancelled(stop_);
   // The high count: the residual's low bound, and gaps up to the highest borders
   for_high_.grounded.clear();
   for_high_.grounded.raise(silhouettes_.grounded, packet_);
+  recesses_.draw_again(
+      packet_, overhead, [](const ReceiverPacket&, PacketHorizon&) {}, for_high_.grounded);
   for_high_.upper_borders = for_high_.lower_borders = for_high_.grounded;
   residual_.raise_to_low(packet_, for_high_.upper_borders);
   residual_.raise_to_overhang(packet_, for_high_.lower_borders);
-  for_high_.draw_overhangs(silhouettes_, packet_, below, FarGapEnd::highest);
+  for_high_.draw_overhangs(silhouettes_, packet_, overhead, FarGapEnd::highest);
   for_high_.lower_borders.lower_to(for_high_.upper_borders);
   // The low count: the residual's high bound, and no gaps
   for_low_ = for_estimate_.upper_borders;

@@ -13,6 +13,7 @@
 #include "horizon/overhangs.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "horizon/recesses.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "occlusion/occluder.hpp"
 #include "package/far_map.hpp"
@@ -39,6 +40,7 @@ class RayEngine {
 
  private:
   void draw_horizons(std::span<const Receiver> receivers);
+  void draw_bounds(const Overhead& overhead);
   /// A loop over the directions looks from time to time whether an end is asked for.
   void look_for_stop(std::uint32_t k) const {
     if (k % directions_between_looks == 0) throw_if_cancelled(stop_);
@@ -60,6 +62,7 @@ class RayEngine {
   bool wants_bounds_;
   std::stop_token stop_;
   ResidualHorizon residual_;
+  Recesses recesses_;
   ReceiverPacket packet_;
   /// The horizons that give the estimate, the high count and the low count. A low horizon gives a high count. Without bounds,
   /// only the first are drawn.
