@@ -66,59 +66,145 @@ class SortedSegments {
   double widest_m_ = 0.0;
 };
 
-/// Adds the stretches of a border as borders of this role. Its own ends stay exact: other borders begin there.
-void add_parts(const HorizonSegment& border, const std::vector<ShareStretch>& stretches, EdgeRole role,
-               std::vector<HorizonSegment>& result) {
+using Stretches = std::vector<ShareStretch>;
+
+/// Adds the stretches of a border. Its own ends stay exact: other borders begin there.
+void add_parts(const HorizonSegment& border, const Stretches& stretches, std::vector<HorizonSegment>& result) {
   const Segment3d& s = border.segment;
   for (const ShareStretch& t : stretches)
-    if ((t.from == 0.0 && t.to == 1.0) || (t.to - t.from) * norm(s.b - s.a) > on_line_m)
+    if ((t.from == 0.0 && t.to == 1.0) || (t.to - t.from) * norm(s.b - s.a) > least_sliver_m)
       result.push_back(
-          {{t.from == 0.0 ? s.a : point_at(s, t.from), t.to == 1.0 ? s.b : point_at(s, t.to)}, border.adjacent, role});
+          {{t.from == 0.0 ? s.a : point_at(s, t.from), t.to == 1.0 ? s.b : point_at(s, t.to)}, border.adjacent, border.role});
 }
 
-std::vector<HorizonSegment> without_those_below_grounded(const std::vector<HorizonSegment>& borders) {
+/// The borders that hide all below them.
+SortedSegments grounded_of(const std::vector<UpperBorder>& borders) {
   std::vector<Segment3d> grounded;
-  for (const HorizonSegment& border : borders)
-    if (border.role == EdgeRole::grounded) grounded.push_back(border.segment);
-  const SortedSegments hiding(std::move(grounded));
-  std::vector<HorizonSegment> result;
-  for (const HorizonSegment& border : borders) {
-    std::vector<ShareStretch> seen{{}};
-    hiding.visit_near(border.segment, [&](const Segment3d& other) {
-      if (const auto hidden = stretch_below(border.segment, other)) seen = without(seen, *hidden);
-    });
-    add_parts(border, seen, border.role, result);
+  for (const UpperBorder& border : borders)
+    if (border.segment.role == EdgeRole::grounded) grounded.push_back(border.segment.segment);
+  return SortedSegments(std::move(grounded));
+}
+
+/// Adds the parts of a border that do not lie right below one of others.
+void add_seen_parts(const HorizonSegment& border, const SortedSegments& hiding, std::vector<HorizonSegment>& result) {
+  Stretches seen{{}};
+  hiding.visit_near(border.segment, [&](const Segment3d& other) {
+    if (const auto hidden = stretch_below(border.segment, other)) seen = without(seen, *hidden);
+  });
+  add_parts(border, seen, result);
+}
+
+std::vector<UpperBorder> without_those_below_grounded(const std::vector<UpperBorder>& borders) {
+  const SortedSegments hiding = grounded_of(borders);
+  std::vector<UpperBorder> result;
+  std::vector<HorizonSegment> parts;
+  for (const UpperBorder& border : borders) {
+    parts.clear();
+    add_seen_parts(border.segment, hiding, parts);
+    for (const HorizonSegment& part : parts) result.push_back({part, border.by_wall});
   }
   return result;
 }
 
+/// What a building's inside, and its walls, tell of its upper borders.
+class BorderRoles {
+ public:
+  BorderRoles(const BuildingPieces& building, const GroundedWalls& walls)
+      // Without slabs, nothing is known of the inside: most buildings need none
+      : solid_(building.loose_edges.empty() ? std::span<const Slab>(building.slabs) : std::span<const Slab>()),
+        walled_in_(building.slabs.empty() ? std::span<const WallProfile>() : walls.walls(), building.slabs,
+                   building.loose_edges) {}
+
+  /// A border, and what is known of it.
+  struct Known {
+    HorizonSegment border;
+    SolidToGround::Parts parts;
+  };
+  void add(const HorizonSegment& border) {
+    Known& known = known_.emplace_back(Known{border, solid_.parts_of(border.segment, recesses_)});
+    const Stretches within = walled_in_.stretches_of(border.segment);
+    known.parts.grounded.insert(known.parts.grounded.end(), within.begin(), within.end());
+  }
+  /// Eyes in a recess must have its borders near them: those of a building that is not cut may be far.
+  void leave_recesses_open() { recesses_.clear(); }
+
+  [[nodiscard]] std::vector<HorizonSegment> outside_of_solid(const HorizonSegment& underside) const {
+    std::vector<HorizonSegment> parts;
+    add_parts(underside, without({ShareStretch{}}, solid_.buried_parts_of(underside.segment)), parts);
+    return parts;
+  }
+  /// Adds the parts of all borders with their roles.
+  void find(std::vector<UpperBorder>& result) const {
+    for (const auto& [border, parts] : known_) {
+      Stretches grounded = parts.grounded;
+      for (const ShareStretch& hollow : parts.hollow) add_over_recesses(border.segment, hollow, grounded);
+      const double length_m = norm(border.segment.b - border.segment.a);
+      grounded = tidied(std::move(grounded), least_sliver_m / length_m);
+      std::vector<HorizonSegment> of_border;
+      HorizonSegment with_role = border;
+      with_role.role = EdgeRole::grounded;
+      add_parts(with_role, without(grounded, parts.buried), of_border);
+      with_role.role = EdgeRole::overhang;
+      add_parts(with_role, without(without({ShareStretch{}}, grounded), parts.buried), of_border);
+      for (const HorizonSegment& part : of_border) result.push_back({part});
+    }
+  }
+
+ private:
+  void add_over_recesses(const Segment3d& border, const ShareStretch& hollow, Stretches& grounded) const {
+    for (const SolidToGround::Recess& recess : recesses_)
+      if (const auto over = recess.stretch_over(border)) {
+        const ShareStretch both{std::max(hollow.from, over->from), std::min(hollow.to, over->to)};
+        if (both.to > both.from) grounded.push_back(both);
+      }
+  }
+
+  SolidToGround solid_;
+  WalledIn walled_in_;
+  std::vector<Known> known_;
+  std::vector<SolidToGround::Recess> recesses_;
+};
+
 }  // namespace
 
-std::vector<HorizonSegment> upper_borders_with_roles(BuildingPieces& building, const GroundHeightAt& ground_height) {
+BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,
+                                    const GroundHeightAt& ground_height) {
   const GroundedWalls walls(*std::exchange(building.walls, std::nullopt), ground_height);
   for (Slab& slab : building.slabs) slab.on_ground = stands_on_ground(slab, ground_height);
-  // The inside of a closed building is known. Without slabs, nothing is: most buildings need none
-  const bool is_closed = building.loose_edges.empty(), is_known = !building.slabs.empty();
-  const SolidToGround solid(is_closed ? std::span<const Slab>(building.slabs) : std::span<const Slab>());
-  const WalledIn walled_in(is_known ? walls.walls() : std::span<const WallProfile>(), building.slabs, building.loose_edges);
-  const std::vector<ShareStretch> whole{{}};
-  std::vector<HorizonSegment> result;
-  for (HorizonSegment border : building.upper_borders) {
-    if (walls.close_below(border.segment)) {
-      // Only the wall is known to be grounded, not the roof behind it: the border faces all eyes
-      border.adjacent = {};
-      add_parts(border, whole, EdgeRole::grounded, result);
-      continue;
-    }
-    auto [grounded, buried] = solid.parts_of(border.segment);
-    const std::vector<ShareStretch> within = walled_in.stretches_of(border.segment);
-    grounded.insert(grounded.end(), within.begin(), within.end());
-    grounded = tidied(std::move(grounded), contact_m / norm(border.segment.b - border.segment.a));
-    add_parts(border, without(grounded, buried), EdgeRole::grounded, result);
-    add_parts(border, without(without(whole, grounded), buried), EdgeRole::overhang, result);
+  BorderRoles roles(building, walls);
+  BordersWithRoles result;
+  for (const HorizonSegment& border : building.upper_borders)
+    if (walls.close_below(border.segment))
+      result.upper.push_back({border, true});
+    else
+      roles.add(border);
+  if (building.only_cell) roles.leave_recesses_open();
+  roles.find(result.upper);
+  result.upper = without_those_below_grounded(result.upper);
+  for (const UpperBorder& border : result.upper) {
+    const Segment3d& s = border.segment.segment;
+    if (border.segment.role == EdgeRole::overhang && norm(s.b - s.a) <= contact_m)
+      result.slivers.push_back({s, {AdjacentSlopes::straight_up, AdjacentSlopes::straight_up}, EdgeRole::underside});
   }
+  const SortedSegments hiding = grounded_of(result.upper);
+  for (const HorizonSegment& underside : undersides)
+    for (const HorizonSegment& part : roles.outside_of_solid(underside)) add_seen_parts(part, hiding, result.undersides);
   building.slabs = {};
-  return without_those_below_grounded(result);
+  return result;
+}
+
+std::vector<HorizonSegment> placed_borders(const std::vector<UpperBorder>& borders, bool has_undersides) {
+  std::vector<UpperBorder> grounded = borders;
+  if (!has_undersides) {
+    for (UpperBorder& border : grounded) border.segment.role = EdgeRole::grounded;
+    grounded = without_those_below_grounded(grounded);
+  }
+  std::vector<HorizonSegment> result;
+  for (const UpperBorder& border : grounded) {
+    result.push_back(border.segment);
+    if (has_undersides && border.by_wall) result.back().adjacent = {};
+  }
+  return result;
 }
 
 }  // namespace farlod::tiles

@@ -10,9 +10,27 @@
 
 namespace farlod::tiles {
 
-/// The upper borders of a building that has open lower borders, each with its role. Left out are those that no eye outside of the
-/// building's solids sees as a horizon: inside of it, or right below one that is grounded. Proof in docs/concepts.md, "What is
-/// grounded, and what overhangs". The building loses its walls and slabs.
-[[nodiscard]] std::vector<HorizonSegment> upper_borders_with_roles(BuildingPieces& building, const GroundHeightAt& ground_height);
+/// An upper border of a building that has open lower borders.
+struct UpperBorder {
+  HorizonSegment segment;  ///< with its role
+  /// It is grounded by the wall below it alone: the roof behind it may be open below, so that it faces all eyes.
+  bool by_wall = false;
+};
+
+/// The borders of such a building. Left out are those that no eye outside of its solids sees as a silhouette: inside of them, or
+/// right below a grounded border. Proof in docs/concepts.md, "What is grounded, and what overhangs".
+struct BordersWithRoles {
+  std::vector<UpperBorder> upper;
+  std::vector<HorizonSegment> undersides;
+  /// Lower borders where something leans out by some millimetres at the end of a grounded border. What touches them tells
+  /// nothing.
+  std::vector<HorizonSegment> slivers;
+};
+/// `undersides`: those of the building that are above the ground. It loses its walls and slabs.
+[[nodiscard]] BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,
+                                                  const GroundHeightAt& ground_height);
+
+/// What is placed of the upper borders: where `has_undersides`, with their roles; else all of them are grounded.
+[[nodiscard]] std::vector<HorizonSegment> placed_borders(const std::vector<UpperBorder>& borders, bool has_undersides);
 
 }  // namespace farlod::tiles

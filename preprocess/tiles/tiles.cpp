@@ -119,9 +119,8 @@ class TileCutter {
  private:
   /// A building with lower borders that none of its own facets closes.
   struct OverhangingBuilding {
-    std::vector<CellEdge> upper_pieces;  ///< all grounded
-    std::vector<HorizonSegment> upper_borders;
-    std::vector<CellEdge> undersides;
+    std::vector<UpperBorder> upper_borders;
+    std::vector<CellEdge> undersides, slivers;
     std::optional<Cell> only_cell;
     struct {
       std::uint32_t begin = 0, end = 0;
@@ -238,14 +237,23 @@ class TileCutter {
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
     overhanging.only_cell = cut_building.only_cell;
     overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
-    for (const HorizonSegment& underside : undersides) {
-      const auto edges = cut_edge_unless_whole(underside, cut_building.only_cell, grid_, tiles_.height_origin_m);
-      overhanging.undersides.insert(overhanging.undersides.end(), edges.begin(), edges.end());
-    }
     if (!cut_building.walls) cut_building.walls = wall_profiles(city_, building);
-    overhanging.upper_borders = upper_borders_with_roles(
-        cut_building, [this, foundation_top_m](Point2d p) { return std::max(ground_->height_at(p), foundation_top_m); });
-    overhanging.upper_pieces = std::move(cut_building.upper_pieces);
+    BordersWithRoles borders = borders_with_roles(cut_building, undersides, [this, foundation_top_m](Point2d p) {
+      return std::max(ground_->height_at(p), foundation_top_m);
+    });
+    overhanging.upper_borders = std::move(borders.upper);
+    overhanging.undersides = cut(borders.undersides, cut_building.only_cell);
+    overhanging.slivers = cut(borders.slivers, cut_building.only_cell);
+  }
+
+  [[nodiscard]] std::vector<CellEdge> cut(const std::vector<HorizonSegment>& borders,
+                                          const std::optional<Cell>& only_cell) const {
+    std::vector<CellEdge> pieces;
+    for (const HorizonSegment& border : borders) {
+      const auto edges = cut_edge_unless_whole(border, only_cell, grid_, tiles_.height_origin_m);
+      pieces.insert(pieces.end(), edges.begin(), edges.end());
+    }
+    return pieces;
   }
 
   /// Places the walls and the lid of a foundation as one more surface of the building that was placed last.
@@ -301,17 +309,14 @@ class TileCutter {
       for (const CellEdge& underside : overhanging_[n].undersides)
         for (const HorizonEdge& part : without_contacts(underside.edge, tiles_.tile(underside.cell)))
           open.push_back({underside.cell, part});
+      open.insert(open.end(), overhanging_[n].slivers.begin(), overhanging_[n].slivers.end());
       overhanging_[n].undersides = std::move(open);
     });
     for (const OverhangingBuilding& building : overhanging_) {
       // A roof whose borders all touch walls shows no sky below them. A receiver below it still has it overhead
       for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
-      if (building.undersides.empty())
-        for (const CellEdge& edge : building.upper_pieces) place(edge);
-      else
-        for (const HorizonSegment& border : building.upper_borders)
-          for (const CellEdge& edge : cut_edge_unless_whole(border, building.only_cell, grid_, tiles_.height_origin_m))
-            place(edge);
+      for (const CellEdge& edge : cut(placed_borders(building.upper_borders, !building.undersides.empty()), building.only_cell))
+        place(edge);
       for (const CellEdge& underside : building.undersides) place(underside);
     }
     overhanging_.clear();

@@ -23,6 +23,35 @@ inline std::vector<Face> box(double x0, double y0, double x1, double y1, double 
           {{x0, y0, low_m}, {x0, y1, low_m}, {x1, y1, low_m}, {x1, y0, low_m}}};
 }
 
+/// A closed house from (10, 10) to (20, 20), 6 m high, with a window that is set back: from x = `west` to 17, from 1 m to
+/// `top_m`, and up to y = `back`. It is open to the south, and with a `back` of 20 to the north.
+inline std::vector<Face> house_with_recess(double back, double west = 14, double top_m = 3) {
+  const double w = west, t = top_m;
+  std::vector<Face> faces{{{10, 10, 0}, {10, 20, 0}, {20, 20, 0}, {20, 10, 0}, {17, 10, 0}, {w, 10, 0}},
+                          {{10, 10, 6}, {w, 10, 6}, {17, 10, 6}, {20, 10, 6}, {20, 20, 6}, {10, 20, 6}},
+                          {{10, 10, 0}, {w, 10, 0}, {w, 10, 1}, {w, 10, t}, {w, 10, 6}, {10, 10, 6}},
+                          {{17, 10, 0}, {20, 10, 0}, {20, 10, 6}, {17, 10, 6}, {17, 10, t}, {17, 10, 1}},
+                          {{w, 10, 0}, {17, 10, 0}, {17, 10, 1}, {w, 10, 1}},
+                          {{w, 10, t}, {17, 10, t}, {17, 10, 6}, {w, 10, 6}},
+                          {{w, 10, 1}, {w, back, 1}, {w, back, t}, {w, 10, t}},
+                          {{17, back, 1}, {17, 10, 1}, {17, 10, t}, {17, back, t}},
+                          {{w, 10, 1}, {17, 10, 1}, {17, back, 1}, {w, back, 1}},
+                          {{w, back, t}, {17, back, t}, {17, 10, t}, {w, 10, t}},
+                          {{20, 10, 0}, {20, 20, 0}, {20, 20, 6}, {20, 10, 6}},
+                          {{10, 20, 0}, {10, 10, 0}, {10, 10, 6}, {10, 20, 6}}};
+  if (back < 20) {
+    faces.push_back({{w, back, 1}, {17, back, 1}, {17, back, t}, {w, back, t}});
+    faces.push_back({{20, 20, 0}, {10, 20, 0}, {10, 20, 6}, {20, 20, 6}});
+    return faces;
+  }
+  // The way through the house
+  faces.push_back({{20, 20, 0}, {17, 20, 0}, {17, 20, 1}, {17, 20, t}, {17, 20, 6}, {20, 20, 6}});
+  faces.push_back({{17, 20, 0}, {w, 20, 0}, {w, 20, 1}, {17, 20, 1}});
+  faces.push_back({{17, 20, t}, {w, 20, t}, {w, 20, 6}, {17, 20, 6}});
+  faces.push_back({{w, 20, 0}, {10, 20, 0}, {10, 20, 6}, {w, 20, 6}, {w, 20, t}, {w, 20, 1}});
+  return faces;
+}
+
 /// 20 × 10 m, eaves at 6 m, ridge at 9 m.
 inline std::vector<Face> gabled_house() {
   return {{{0, 0, 6}, {20, 0, 6}, {20, 5, 9}, {0, 5, 9}},    // roof, south

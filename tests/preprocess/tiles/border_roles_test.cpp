@@ -16,14 +16,15 @@ using test::Face;
 
 /// The upper borders of one building on level ground, those of a role.
 struct Borders {
-  explicit Borders(const std::vector<Face>& faces) {
+  explicit Borders(const std::vector<Face>& faces, Assign assign = Assign::clip) {
     test::SmallTown town;
     town.add("house", faces);
-    const TileSet tiles = town.tiles();
+    const TileSet tiles = town.tiles(assign);
     grounded = test::edges_of(tiles, EdgeRole::grounded);
     overhang = test::edges_of(tiles, EdgeRole::overhang);
+    undersides = test::edges_of(tiles, EdgeRole::underside);
   }
-  std::vector<Segment3d> grounded, overhang;
+  std::vector<Segment3d> grounded, overhang, undersides;
 };
 
 /// A closed house from y = 10 to 20, whose upper floor projects to y = 8.
@@ -96,6 +97,43 @@ TEST(BorderRoles, AChimneyThatReachesIntoTheHouseIsGrounded) {
   EXPECT_EQ(borders.overhang.size(), 3U);
 }
 
+/// A house with a hollow that is open to the south and to the east.
+std::vector<Face> house_open_at_a_corner() {
+  return {{{10, 10, 0}, {10, 20, 0}, {20, 20, 0}, {20, 10, 0}},
+          {{10, 10, 6}, {20, 10, 6}, {20, 20, 6}, {10, 20, 6}},
+          {{10, 10, 0}, {20, 10, 0}, {20, 10, 1}, {19.5, 10, 1}, {19.5, 10, 3}, {20, 10, 3}, {20, 10, 6}, {10, 10, 6}},
+          {{20, 10, 0}, {20, 20, 0}, {20, 20, 6}, {20, 10, 6}, {20, 10, 3}, {20, 10.5, 3}, {20, 10.5, 1}, {20, 10, 1}},
+          {{19.5, 10, 1}, {20, 10, 1}, {20, 10.5, 1}, {19.5, 10.5, 1}},
+          {{19.5, 10.5, 3}, {20, 10.5, 3}, {20, 10, 3}, {19.5, 10, 3}},
+          {{19.5, 10, 1}, {19.5, 10.5, 1}, {19.5, 10.5, 3}, {19.5, 10, 3}},
+          {{19.5, 10.5, 1}, {20, 10.5, 1}, {20, 10.5, 3}, {19.5, 10.5, 3}},
+          {{20, 20, 0}, {10, 20, 0}, {10, 20, 6}, {20, 20, 6}},
+          {{10, 20, 0}, {10, 10, 0}, {10, 10, 6}, {10, 20, 6}}};
+}
+
+/// A gable to the south, from 6 m up to 8 m at x = 15, over a window set back by 25 cm.
+std::vector<Face> gable_over_a_window() {
+  std::vector<Face> faces = test::house_with_recess(10.25, 13.5);
+  faces[1] = {{10, 10, 3}, {13.5, 10, 6.5}, {15, 10, 8}, {15, 20, 8}, {10, 20, 3}};
+  faces[2] = {{10, 10, 0}, {13.5, 10, 0}, {13.5, 10, 1}, {13.5, 10, 3}, {13.5, 10, 6.5}, {10, 10, 3}};
+  faces[3] = {{17, 10, 0}, {20, 10, 0}, {20, 10, 3}, {17, 10, 6}, {17, 10, 3}, {17, 10, 1}};
+  faces[5] = {{13.5, 10, 3}, {17, 10, 3}, {17, 10, 6}, {15, 10, 8}, {13.5, 10, 6.5}};
+  faces[10] = {{20, 10, 0}, {20, 20, 0}, {20, 20, 3}, {20, 10, 3}};
+  faces[11] = {{10, 20, 0}, {10, 10, 0}, {10, 10, 3}, {10, 20, 3}};
+  faces[13] = {{20, 20, 0}, {10, 20, 0}, {10, 20, 3}, {15, 20, 8}, {20, 20, 3}};
+  faces.push_back({{15, 10, 8}, {17, 10, 6}, {20, 10, 3}, {20, 20, 3}, {15, 20, 8}});
+  return faces;
+}
+
+/// A closed house from (10, 10) to (20, 30) whose roof rises from 0 m in the south by 1 in 2.
+std::vector<Face> house_with_slope() {
+  return {{{10, 10, 0}, {20, 10, 0}, {20, 30, 10}, {10, 30, 10}},
+          {{10, 10, 0}, {10, 30, 0}, {20, 30, 0}, {20, 10, 0}},
+          {{20, 10, 0}, {20, 30, 0}, {20, 30, 10}},
+          {{10, 30, 0}, {10, 10, 0}, {10, 30, 10}},
+          {{20, 30, 0}, {10, 30, 0}, {10, 30, 10}, {20, 30, 10}}};
+}
+
 /// Of the grounded borders, those above all walls: the ridge of a house with eaves.
 std::vector<Segment3d> grounded_ridge(const std::vector<Face>& faces) {
   std::vector<Segment3d> ridge;
@@ -141,23 +179,73 @@ TEST(BorderRoles, WithinWallsNothingMayFloat) {
 }
 
 TEST(BorderRoles, WhatLiesInsideOfASolidIsNoHorizon) {
-  // A recess of the south wall, from x = 13 to 17 and from 1 to 3 m: above it, the solid does not reach the ground
-  const Borders borders({{{10, 10, 0}, {10, 20, 0}, {20, 20, 0}, {20, 10, 0}, {17, 10, 0}, {13, 10, 0}},
-                         {{10, 10, 6}, {13, 10, 6}, {17, 10, 6}, {20, 10, 6}, {20, 20, 6}, {10, 20, 6}},
-                         {{10, 10, 0}, {13, 10, 0}, {13, 10, 1}, {13, 10, 3}, {13, 10, 6}, {10, 10, 6}},
-                         {{17, 10, 0}, {20, 10, 0}, {20, 10, 6}, {17, 10, 6}, {17, 10, 3}, {17, 10, 1}},
-                         {{13, 10, 0}, {17, 10, 0}, {17, 10, 1}, {13, 10, 1}},
-                         {{13, 10, 3}, {17, 10, 3}, {17, 10, 6}, {13, 10, 6}},
-                         {{13, 11, 1}, {17, 11, 1}, {17, 11, 3}, {13, 11, 3}},
-                         {{13, 10, 1}, {13, 11, 1}, {13, 11, 3}, {13, 10, 3}},
-                         {{17, 11, 1}, {17, 10, 1}, {17, 10, 3}, {17, 11, 3}},
-                         {{13, 10, 1}, {17, 10, 1}, {17, 11, 1}, {13, 11, 1}},
-                         {{13, 11, 3}, {17, 11, 3}, {17, 10, 3}, {13, 10, 3}},
-                         {{20, 10, 0}, {20, 20, 0}, {20, 20, 6}, {20, 10, 6}},
-                         {{20, 20, 0}, {10, 20, 0}, {10, 20, 6}, {20, 20, 6}},
-                         {{10, 20, 0}, {10, 10, 0}, {10, 10, 6}, {10, 20, 6}}});
-  EXPECT_EQ(borders.overhang, (std::vector<Segment3d>{{{13, 10, 6}, {17, 10, 6}}}));
+  // Above the recess, the solid does not reach the ground
+  const Borders borders(test::house_with_recess(11.5));
+  EXPECT_EQ(borders.overhang, (std::vector<Segment3d>{{{14, 10, 6}, {17, 10, 6}}}));
   for (const Segment3d& s : borders.grounded) EXPECT_NE(s.a.z, 3.0) << "of the ceiling of the recess";
+}
+
+TEST(BorderRoles, AWindowSetBackLeavesAHouseGrounded) {
+  const Borders borders(test::house_with_recess(10.25));
+  EXPECT_EQ(borders.overhang, std::vector<Segment3d>{});
+  EXPECT_EQ(borders.undersides, std::vector<Segment3d>{});
+  for (const Segment3d& s : borders.grounded) EXPECT_EQ(std::min(s.a.z, s.b.z), 6.0) << "neither the sill nor the ceiling";
+  EXPECT_TRUE(test::covers(borders.grounded, {{14, 10, 6}, {17, 10, 6}}));
+}
+
+TEST(BorderRoles, OfABuildingThatIsNotCutNoBorderLiesOverARecess) {
+  const Borders borders(test::house_with_recess(10.25), Assign::whole);
+  EXPECT_EQ(borders.overhang, (std::vector<Segment3d>{{{14, 10, 6}, {17, 10, 6}}}));
+}
+
+TEST(BorderRoles, ARecessIsOpenOnOneSideAlone) {
+  // Up to the corner of the house, through it, and up to its roof: what is seen above may float
+  EXPECT_TRUE(test::covers(Borders(house_open_at_a_corner()).overhang, {{19.5, 10, 6}, {20, 10, 6}}));
+  EXPECT_TRUE(test::covers(Borders(test::house_with_recess(20)).overhang, {{14, 10, 6}, {17, 10, 6}}));
+  EXPECT_TRUE(test::covers(Borders(test::house_with_recess(10.25, 14, 5.99)).overhang, {{14, 10, 6}, {17, 10, 6}}));
+}
+
+TEST(BorderRoles, ARecessIsNoLargerThanReceiversLook) {
+  EXPECT_TRUE(Borders(test::house_with_recess(10.25, 13.1)).overhang.empty());
+  EXPECT_EQ(Borders(test::house_with_recess(10.25, 12.9)).overhang.size(), 1U) << "4.1 m wide";
+}
+
+TEST(BorderRoles, ARidgeOverAWindowIsGroundedToo) {
+  // Two halves of a gable over one window: each border ends above its middle, and the ridge begins there
+  const Borders borders(gable_over_a_window());
+  EXPECT_EQ(borders.overhang, std::vector<Segment3d>{});
+  EXPECT_EQ(borders.undersides, std::vector<Segment3d>{});
+}
+
+TEST(BorderRoles, ABorderIsHiddenAsFarAsItLiesBelowARoof) {
+  // A dormer of the house on its slope, which rises by 1 in 2: its eaves at 4 m end in the roof at y = 18
+  std::vector<Face> faces = house_with_slope();
+  add(test::box(13, 13.5, 15, 22, 1.5, 4), faces);
+  const Borders borders(faces);
+  EXPECT_TRUE(test::covers(borders.grounded, {{13, 13.5, 4}, {13, 17.95, 4}}));
+  for (const Segment3d& s : borders.grounded)
+    if (s.a.z == 4.0 && s.b.z == 4.0) {
+      EXPECT_LT(std::max(s.a.y, s.b.y), 18.05);
+    }
+  EXPECT_EQ(borders.undersides, std::vector<Segment3d>{}) << "the floor of the dormer lies in the house";
+}
+
+TEST(BorderRoles, WhatLeansOutAtACornerShowsSkyBelow) {
+  // A tower on a house: its top reaches 3 mm farther east than its foot, which no tolerance of walls may hide
+  std::vector<Face> faces = test::box(10, 10, 20, 20, 0, 5);
+  std::vector<Face> tower = test::box(12, 12, 18, 18, 5, 9);
+  for (Face& face : tower)
+    for (Point3d& p : face)
+      if (p.x == 18 && p.z == 9) p.x = 18.003;
+  add(tower, faces);
+  add(test::box(2, 2, 3, 3, 6, 7), faces);  // what overhangs
+  const Borders borders(faces);
+  const std::vector<Segment3d> corners{{{18, 12, 9}, {18.003, 12, 9}}, {{18, 18, 9}, {18.003, 18, 9}}};
+  for (const Segment3d& corner : corners) {
+    EXPECT_TRUE(test::covers(borders.overhang, corner));
+    EXPECT_TRUE(test::covers(borders.undersides, corner));
+    EXPECT_FALSE(test::covers(borders.grounded, corner));
+  }
 }
 
 TEST(BorderRoles, WhatIsRightBelowAGroundedBorderIsNoHorizon) {

@@ -45,6 +45,22 @@ inline std::vector<Segment3d> as_set(std::vector<Segment3d> edges) {
   return edges;
 }
 
+/// Whether a segment lies on others, all of it, within the rounding of cells.
+inline bool covers(const std::vector<Segment3d>& others, const Segment3d& segment) {
+  constexpr int steps = 20;
+  constexpr double rounding_m = 1e-4;
+  const auto is_on = [&](const Point3d& p) {
+    return std::any_of(others.begin(), others.end(), [&](const Segment3d& s) {
+      const Point3d along = s.b - s.a;
+      const double share = std::clamp(dot(p - s.a, along) / dot(along, along), 0.0, 1.0);
+      return norm(p - point_at(s, share)) <= rounding_m;
+    });
+  };
+  for (int k = 0; k <= steps; ++k)
+    if (!is_on(point_at(segment, static_cast<double>(k) / steps))) return false;
+  return true;
+}
+
 inline std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edges) {
   std::vector<Segment3d> segments;
   for (const HorizonSegment& e : edges) segments.push_back(e.segment);
