@@ -87,8 +87,8 @@ struct OverhangHorizons {
   PacketHorizon lower_borders, upper_borders;
   PacketHorizon far_lower_borders, far_upper_borders;  ///< of the far city alone
 
-  /// Draws overhangs above `grounded`. `upper_borders` may hold the
-  /// residual horizon's already, and with FarGapEnd::highest `lower_borders` too; they must not be lower than `grounded`.
+  /// Draws overhangs above `grounded`. `upper_borders` may hold the residual horizon's already, and with FarGapEnd::highest
+  /// `lower_borders` too; they must not be lower than `grounded`.
   void draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, const Overhead& overhead,
                       FarGapEnd far_end);
   /// The sky in the gaps, a row for each azimuth; no rows where there is no gap. Afterwards `lower_borders` and the far horizons
