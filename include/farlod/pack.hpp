@@ -35,6 +35,12 @@ enum class AlignMode {
   fixed,      ///< along a given bearing
 };
 
+/// What stands between the pixels of a surface model.
+enum class SurfaceReading {
+  automatic,  ///< walls, where neighbors are a step apart, as at buildings; slopes elsewhere, and where pixels are wide
+  tin,        ///< slopes, from the centre of each pixel to the next
+};
+
 /// How buildings come to cells.
 enum class Assign {
   clip,  ///< cut exactly at the cells' borders
@@ -108,7 +114,8 @@ struct PackSettings {
   /// Rasters of ground elevations, any that GDAL reads, and folders of them: the tiles of one terrain. Where they overlap, later
   /// ones lie on top, but for where they have no data.
   std::vector<std::filesystem::path> terrain;
-  double terrain_offset_m = 0.0;  ///< added to them, where they count from another datum than the buildings
+  double terrain_offset_m = 0.0;                       ///< added to them, where they count from another datum than the buildings
+  SurfaceReading surface = SurfaceReading::automatic;  ///< of a city that is a raster
   /// More rasters of elevations, of any resolution: beyond the grid of the city, and beyond what `terrain` covers there,
   /// mountains hide the sky, sunk by the Earth's curvature. Where several have heights, the first counts.
   std::vector<std::filesystem::path> far_terrains = {};

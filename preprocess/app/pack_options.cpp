@@ -46,7 +46,7 @@ ProgramDescription pack_program() {
 /// Options whose text is resolved after CLI11 has parsed them.
 struct RawOptions {
   std::vector<std::string> inputs;
-  std::string output, origin, up = "auto", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
+  std::string output, origin, up = "auto", lod = "best", align = "auto", assign = "clip", far_map = "horizon", surface = "auto";
   std::optional<std::string> area, ground_names;
   std::vector<std::string> terrain, far_terrains;
   std::string height_field, base_field, storeys_field, roof_field, layer, encoding;
@@ -121,6 +121,11 @@ void add_terrain_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--terrain-offset", o.settings.terrain_offset_m,
                  "Metres added to the terrain, where its elevations count from another datum than the buildings")
       ->check(between(-1000.0, 1000.0))
+      ->group("Input");
+  app.add_option("--surface", raw.surface,
+                 "A raster that is the city. auto: walls stand where pixels are a step apart; tin: all is slopes between pixels")
+      ->check(CLI::IsMember({"auto", "tin"}))
+      ->capture_default_str()
       ->group("Input");
   app.add_option(
          "--far-terrain", raw.far_terrains,
@@ -294,6 +299,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   resolve_fields(raw, s.footprints);
   set_alignment(raw.align, s);
   s.far_map = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
+  s.surface = raw.surface == "tin" ? SurfaceReading::tin : SurfaceReading::automatic;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
   if (s.max_error && s.far_map == FarMapKind::box)
     throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");

@@ -203,7 +203,8 @@ std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const 
     for (const Point3d& p : centres_of_row(raster, frame, row, projection))
       if (is_on_a_map(p)) surface.points_city.push_back(p - Point3d{georeference.origin_m.x, georeference.origin_m.y, 0.0});
   surface.note = file.path.string() + ": since " + (own.equals(*output) ? "it is turned" : "it is in " + own.name()) +
-                 ", the centres of its pixels are brought to " + output->name() + " one by one, and nothing is resampled";
+                 ", the centres of its pixels are brought to " + output->name() +
+                 " one by one; slopes stand between them, and no walls";
   return surface;
 }
 

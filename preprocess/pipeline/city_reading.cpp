@@ -16,14 +16,17 @@
 #include "georeference/georeference.hpp"
 #include "ingest/files/file_format.hpp"
 #include "ingest/trees/tree_reader.hpp"
+#include "tiles/pixel_steps.hpp"
 
 namespace farlod::pipeline {
 namespace {
 
 Box2d outline_of(const TerrainRaster& terrain) {
   Box2d outline;
-  outline.add(terrain.first);
-  outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1));
+  // A surface with walls covers whole pixels; others end at the centres of the outermost
+  const Point2d half = terrain.has_walls ? 0.5 * terrain.step_m : Point2d();
+  outline.add(terrain.first - half);
+  outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1) + half);
   return outline;
 }
 
@@ -69,6 +72,8 @@ class CityReading {
   ReadCity run() {
     std::vector<SourceCity> sources;
     if (!files_.files.empty()) run_stage_("ingest", [&] { sources = ingest(); });
+    if (settings_.surface == SurfaceReading::tin && !sources.empty())
+      read_.notes.emplace_back("--surface is for a raster that is the city, and changes nothing here");
     run_stage_("georeference", [&] { locate(std::move(sources)); });
     require_usable();
     const align::GridSettings grid = choose_settings();
@@ -182,6 +187,7 @@ class CityReading {
     };
     if (read_.located.city.buildings().empty()) {
       read(std::nullopt);
+      if (terrain) find_walls(*terrain);
       Grid grid;
       run_stage("align", [&] { grid = align::grid_over(ground_outline(read_.located, terrain), settings); });
       return {grid, std::move(terrain)};
@@ -201,6 +207,18 @@ class CityReading {
     for (auto& height_m : terrain.height_m)
       if (height_m) *height_m += static_cast<float>(settings_.terrain_offset_m);
     return terrain;
+  }
+
+  /// Decides by the data what stands between the pixels of a surface model, and says so.
+  void find_walls(TerrainRaster& surface) const {
+    if (settings_.surface == SurfaceReading::tin) return;
+    const std::string name = files_.terrain.files.front().path.string();
+    if (std::max(surface.step_m.x, surface.step_m.y) > tiles::widest_pixel_with_walls_m) return;
+    const std::size_t steps = tiles::PixelSteps(surface).count();
+    surface.has_walls = steps > 0;
+    if (steps > 0)
+      surface.notes.push_back(name + ": walls stand on " + std::to_string(steps) +
+                              " sides of pixels whose neighbors are a step apart; --surface tin makes them slopes");
   }
 
   CityFiles files_;

@@ -48,6 +48,7 @@ struct StageSettings {
   std::vector<std::filesystem::path> inputs;   ///< files, folders and archives; may be empty when there is a terrain
   std::vector<std::filesystem::path> terrain;  ///< rasters, and folders of them
   double terrain_offset_m = 0.0;
+  SurfaceReading surface = SurfaceReading::automatic;
   std::vector<std::filesystem::path> far_terrains;  ///< beyond what `terrain` covers
   TreeSettings trees = {};
   std::filesystem::path output;

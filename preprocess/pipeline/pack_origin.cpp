@@ -118,6 +118,7 @@ void add_input_settings(const StageSettings& s, Values& values) {
   values.emplace_back("lod", s.ingest.lod.exactly ? std::to_string(*s.ingest.lod.exactly) : "best");
   for (const fs::path& tile : s.terrain) values.emplace_back("terrain", tile.filename().string());
   for (const fs::path& file : s.far_terrains) values.emplace_back("far-terrain", file.filename().string());
+  if (s.surface == SurfaceReading::tin) values.emplace_back("surface", "tin");
   if (s.terrain_offset_m != 0.0) values.emplace_back("terrain-offset", fmt::format("{}", s.terrain_offset_m));
 }
 

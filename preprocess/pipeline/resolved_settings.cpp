@@ -24,6 +24,7 @@ void check_files(const PackSettings& s) {
   for (const auto& file : s.far_terrains)
     if (file.empty()) throw InvalidArgument("far_terrains has an empty path: give the paths of rasters");
   require_between("terrain_offset_m", s.terrain_offset_m, -1000.0, 1000.0);
+  require_one_of("surface", s.surface, SurfaceReading::tin);
   require_one_of("overwrite", s.overwrite, Overwrite::replace);
   require_one_of("problems", s.problems, ProblemPolicy::refuse);
 }
@@ -123,6 +124,7 @@ StageSettings resolved(const PackSettings& s) {
   stages.inputs = s.inputs;
   stages.terrain = s.terrain;
   stages.terrain_offset_m = s.terrain_offset_m;
+  stages.surface = s.surface;
   stages.far_terrains = s.far_terrains;
   stages.trees = s.trees;
   stages.output = s.output;

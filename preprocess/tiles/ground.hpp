@@ -16,6 +16,7 @@
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
 #include "tiles/horizon_edges.hpp"
+#include "tiles/stepped_surface.hpp"
 
 namespace farlod::tiles {
 
@@ -44,8 +45,8 @@ struct GroundFace {
   [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
 };
 
-/// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height. A large one lies on disk
-/// (PagedHeap).
+/// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height, or the surface of a
+/// surface model. A large one lies on disk (PagedHeap, PagedArray). Of a network:
 ///   (1) Of several points at one place in the plane, the lowest counts.
 ///   (2) It covers the rectangle, or the convex hull of its points, according to its extent.
 ///   (3) It does not depend on the order of the points.
@@ -53,17 +54,22 @@ class Ground {
  public:
   /// Points outside of the rectangle shape the ground at its edge. Without points the ground is flat at height 0.
   Ground(PagedArray<Point3d> points_grid, const Box2d& rectangle, GroundExtent extent = GroundExtent::rectangle);
+  /// Lasts no longer than the raster. The rotation is that of the grid.
+  Ground(const TerrainRaster& surface_model, const PixelSteps& steps, const GridRotation& rotation);
   Ground(Ground&&) noexcept;
   Ground& operator=(Ground&&) noexcept;
   ~Ground();
 
-  /// Height of the ground; beyond it, the height of the nearest point. Not thread-safe.
+  /// Height of the ground; beyond it, the height of the nearest point. Of a surface model, that of the pixel there, or of one on
+  /// its row. Not thread-safe.
   [[nodiscard]] double height_at(Point2d p_grid) const;
   /// Whether a point is higher above the ground than that. As height_at says, but for a point whose height decides by a
   /// millimetre; much faster for points beside each other. Not thread-safe.
   [[nodiscard]] bool is_above(const Point3d& p_grid, double height_m) const;
   /// The lowest of all corners of its triangles; nothing when it has none.
   [[nodiscard]] std::optional<double> lowest_m() const;
+  /// The edges of a surface model; of a network, those that its faces have (GroundFace::horizon_edges) are all.
+  [[nodiscard]] const PagedArray<HorizonSegment>* edges_of_surface() const;
 
  private:
   friend class GroundFaces;

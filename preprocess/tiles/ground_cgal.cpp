@@ -15,6 +15,7 @@
 #include "base/expects.hpp"
 #include "city/geometry.hpp"
 #include "tiles/ground.hpp"
+#include "tiles/modelled_ground.hpp"
 
 namespace farlod::tiles {
 namespace {
@@ -88,6 +89,7 @@ bool is_within(const std::array<Point3d, 3>& corners, Point2d p) {
 }  // namespace
 
 struct Ground::Impl {
+  std::optional<ModelledGround> model;  ///< instead of the network
   Network network;
   Network::Face_handle last_found;
   std::size_t asked = 0;  ///< heights
@@ -114,11 +116,16 @@ Ground::Ground(PagedArray<Point3d> points, const Box2d& rectangle, GroundExtent 
   // CGAL ignores a corner at the place of an existing point
   for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }
+Ground::Ground(const TerrainRaster& surface_model, const PixelSteps& steps, const GridRotation& rotation)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->model.emplace(surface_model, steps, rotation);
+}
 Ground::Ground(Ground&&) noexcept = default;
 Ground& Ground::operator=(Ground&&) noexcept = default;
 Ground::~Ground() = default;
 
 double Ground::height_at(Point2d p) const {
+  if (impl_->model) return impl_->model->height_at(p);
   const Network& network = impl_->network;
   if (++impl_->asked % accesses_between_looks == 0) MemoryBound::look_now();
   const Kernel::Point_3 query(p.x, p.y, 0.0);
@@ -129,6 +136,7 @@ double Ground::height_at(Point2d p) const {
 }
 
 bool Ground::is_above(const Point3d& p, double height_m) const {
+  if (impl_->model) return p.z > height_at(horizontal(p)) + height_m;
   // Beside the triangle that was found last, the ground is as high as at its border, up to what lies within the millimetre
   constexpr double certain_m = 1e-3;
   if (const Network::Face_handle last = impl_->last_found; last != nullptr)
@@ -145,12 +153,17 @@ bool Ground::is_above(const Point3d& p, double height_m) const {
 }
 
 std::optional<double> Ground::lowest_m() const {
+  if (impl_->model) return impl_->model->lowest_m();
   const Network& network = impl_->network;
   if (network.dimension() < 2) return std::nullopt;
   double lowest_m = std::numeric_limits<double>::infinity();
   for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v)
     lowest_m = std::min(lowest_m, v->point().z());
   return lowest_m;
+}
+
+const PagedArray<HorizonSegment>* Ground::edges_of_surface() const {
+  return impl_->model ? &impl_->model->surface().edges : nullptr;
 }
 
 std::vector<HorizonSegment> GroundFace::horizon_edges() const {
@@ -170,17 +183,24 @@ std::vector<HorizonSegment> GroundFace::horizon_edges() const {
 // It goes over faces: finite_edges chooses between the two faces of an edge by their addresses, which differ from run to run
 struct GroundFaces::Impl {
   const Network& network;
+  const SteppedSurface* surface = nullptr;  ///< instead of the network
   Network::Finite_faces_iterator face = network.finite_faces_begin();
+  std::size_t triangle = 0;  ///< of the surface
 };
 
-GroundFaces::GroundFaces(const Ground& ground) : impl_(new Impl{ground.impl_->network}) {}
+GroundFaces::GroundFaces(const Ground& ground)
+    : impl_(new Impl{ground.impl_->network, ground.impl_->model ? &ground.impl_->model->surface() : nullptr}) {}
 GroundFaces::GroundFaces(GroundFaces&&) noexcept = default;
 GroundFaces::~GroundFaces() = default;
 
 std::vector<GroundFace> GroundFaces::next(std::size_t most) {
-  auto& [network, face] = *impl_;
+  auto& [network, surface, face, triangle] = *impl_;
   std::vector<GroundFace> faces;
   faces.reserve(most);
+  if (surface != nullptr) {
+    while (faces.size() < most && triangle < surface->triangles.size()) faces.push_back({surface->triangles[triangle++]});
+    return faces;
+  }
   for (; faces.size() < most && face != network.finite_faces_end(); ++face) {
     if (faces.size() % accesses_between_looks == 0) MemoryBound::look_now();
     GroundFace& found = faces.emplace_back();

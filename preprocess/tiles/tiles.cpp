@@ -154,12 +154,21 @@ class TileCutter {
   }
 
   void place_ground_edges() {
+    if (const auto* const edges = ground_->edges_of_surface()) {
+      Numbers numbers(edges->size());
+      make_and_place([&] { return numbers.next(batch_size); }, stop_,
+                     [&](std::size_t n) { return cut_edge((*edges)[n], grid_, tiles_.height_origin_m); },
+                     [&](std::size_t, const std::vector<CellEdge>& pieces) { place_on_ground(pieces); });
+      return;
+    }
     GroundFaces faces(*ground_);
     make_and_place([&] { return faces.next(batch_size); }, stop_, [&](const GroundFace& face) { return cut_edges_of(face); },
-                   [&](const GroundFace&, const std::vector<CellEdge>& pieces) {
-                     for (const CellEdge& piece : pieces)
-                       if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
-                   });
+                   [&](const GroundFace&, const std::vector<CellEdge>& pieces) { place_on_ground(pieces); });
+  }
+
+  void place_on_ground(const std::vector<CellEdge>& pieces) {
+    for (const CellEdge& piece : pieces)
+      if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
   }
 
   [[nodiscard]] std::vector<CellEdge> cut_edges_of(const GroundFace& face) const {

@@ -64,7 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
              "--assign",       "--far-map",        "--area",         "--output",       "--force",           "--report",
              "--strict",       "--summary",        "--memory-limit", "--quiet",        "--threads",         "--config",
              "--resume",       "--shard",          "--merge",        "--trees",        "--trees-layer",     "--tree-height-field",
-             "--crown-field",  "--trunk-field",    "--canopy",       "--trunk",        "--canopy-absolute", "--trunk-ratio"}},
+             "--crown-field",  "--trunk-field",    "--canopy",       "--trunk",        "--canopy-absolute", "--trunk-ratio",
+             "--surface"}},
         Program{
             "farlod-svf",
             {"--canopy-rule",  "--transmissivity", "--extinction", "--leaf-off", "--help",       "--version",   "--grid",

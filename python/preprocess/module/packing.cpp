@@ -140,10 +140,12 @@ void add_trees(py::module_& module) {
 }
 
 void set_words(PackSettings& settings, const std::string& up, const std::string& assign, const std::string& far_map,
-               const std::string& problems) {
+               const std::string& surface, const std::string& problems) {
   if (up != "auto") settings.up = either<UpAxis>("up", up, {"z", UpAxis::z}, {"y", UpAxis::y});
   settings.assign = either<Assign>("assign", assign, {"clip", Assign::clip}, {"whole", Assign::whole});
   settings.far_map = either<FarMapKind>("far_map", far_map, {"horizon", FarMapKind::horizon}, {"box", FarMapKind::box});
+  settings.surface =
+      either<SurfaceReading>("surface", surface, {"auto", SurfaceReading::automatic}, {"tin", SurfaceReading::tin});
   settings.problems =
       either<ProblemPolicy>("problems", problems, {"pack", ProblemPolicy::pack}, {"refuse", ProblemPolicy::refuse});
 }
@@ -165,7 +167,7 @@ void add_pack_settings(py::module_& module) {
       .def("set_alignment", &set_alignment)
       .def("set_area", &set_area)
       .def("set_area_file", &set_area_file)
-      .def("set_words", &set_words, py::arg("up"), py::arg("assign"), py::arg("far_map"), py::arg("problems"))
+      .def("set_words", &set_words, py::arg("up"), py::arg("assign"), py::arg("far_map"), py::arg("surface"), py::arg("problems"))
       .def("set_overwrite", [](PackSettings& settings) { settings.overwrite = Overwrite::replace; })
       .def_readwrite("terrain_offset_m", &PackSettings::terrain_offset_m)
       .def_readwrite("crs", &PackSettings::crs)

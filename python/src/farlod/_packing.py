@@ -230,6 +230,7 @@ def pack(
     max_error: float | None = None,
     terrain: Any = None,
     terrain_offset: float = 0.0,
+    surface: Literal["auto", "tin"] = "auto",
     far_terrain: Any = None,
     trees: Any = None,
     heights: Heights | str | None = None,
@@ -273,6 +274,9 @@ def pack(
         top; a path may be a folder of tiles.
     terrain_offset : float, default 0
         Metres added to them, where they count from another datum than the buildings.
+    surface : {"auto", "tin"}, default "auto"
+        What stands between the pixels of a surface model: walls where they are a step apart and slopes elsewhere, or slopes
+        alone (triangulated irregular network).
     far_terrain : path, xarray.DataArray, or a list of them, optional
         Elevations around the city, of any resolution: mountains beyond what `terrain` covers hide the sky. A path may be a
         folder of tiles.
@@ -347,6 +351,7 @@ def pack(
         _arguments.word("up", up, ("auto", "z", "y")),
         _arguments.word("assign", assign, ("clip", "whole")),
         _arguments.word("far_map", far_map, ("horizon", "box")),
+        _arguments.word("surface", surface, ("auto", "tin")),
         _arguments.word("problems", problems, ("pack", "refuse")),
     )
     if _arguments.flag("overwrite", overwrite):

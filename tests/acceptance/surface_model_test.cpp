@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/oracles.hpp"
+#include "tests/analytic/tolerance.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+constexpr double floor_m = 5.0, roof_m = 25.0, receiver_m = 0.05;
+/// From a receiver to the roofs around it.
+constexpr double rise_m = roof_m - floor_m - receiver_m;
+constexpr double pixel_m = 0.25;
+constexpr std::size_t rays = 20000;
+
+/// How a surface model is read, and where its walls then have their tops: before the outermost centres of pixels of a roof.
+struct Reading {
+  const char* name;
+  const char* arguments;
+  double before_centres_m;
+};
+
+/// A city that is known only as a raster of its surface.
+class SurfaceModel : public testing::Test {
+ protected:
+  void pack(const std::function<bool(Point2d)>& is_roof, const std::string& arguments = "") const {
+    pack_heights([&](Point2d p) { return is_roof(p) ? roof_m : floor_m; }, arguments);
+  }
+  void pack_heights(const std::function<double(Point2d)>& height_m, const std::string& arguments = "") const {
+    constexpr double half_edge_m = 40.0;
+    folder.write("dsm.asc", ascii_grid(height_m, pixel_m, half_edge_m));
+    folder.must("farlod-pack --terrain dsm.asc --crs EPSG:32632 --force -o a.farlod " + arguments + " > said.txt 2>&1");
+  }
+  [[nodiscard]] CsvTable table_at(Point2d p, const std::string& engine) const {
+    std::ostringstream command;
+    command << "farlod-svf a.farlod -o at.csv --at " << text_of(town_middle + p) << " --on-surface --height " << receiver_m
+            << " --rays " << rays << " --engine " << engine;
+    folder.must(command.str());
+    return CsvTable(folder.text_of("at.csv"));
+  }
+  [[nodiscard]] double svf_at(Point2d p, const std::string& engine) const { return table_at(p, engine).number(0, "svf"); }
+  [[nodiscard]] std::string said() const { return folder.text_of("said.txt"); }
+
+  WorkFolder folder;
+};
+
+class SurfaceModelRead : public SurfaceModel, public testing::WithParamInterface<Reading> {};
+
+TEST_P(SurfaceModelRead, RectangularCourt) {
+  constexpr double a = 10.0, b = 25.0;  // half the edges of what roofs leave free, by the centres of their pixels
+  pack([](Point2d p) { return std::abs(p.x) >= a || std::abs(p.y) >= b; }, GetParam().arguments);
+  const double half_x = a - GetParam().before_centres_m, half_y = b - GetParam().before_centres_m;
+  // The opening is convex, and so is its picture on the unit disk: no longer than the circle
+  const double sampling = sampling_error(rays, 2.0 * oracles::pi);
+  // A corner may be cut off by half a pixel, which is seen from right below at best
+  const double corners = 4.0 * 0.5 * pixel_m * pixel_m / (oracles::pi * rise_m * rise_m);
+  for (const Point2d p : {Point2d{}, {4.0, 0.0}, {-7.0, 12.5}, {6.25, -20.0}}) {
+    double expected = 0.0;
+    for (const double to_x : {half_x - p.x, half_x + p.x})
+      for (const double to_y : {half_y - p.y, half_y + p.y}) expected += oracles::court_quadrant_cos(to_x, to_y, rise_m);
+    for (const char* engine : {"auto", "exact"})
+      EXPECT_NEAR(svf_at(p, engine), expected, sampling + corners) << p.x << ' ' << p.y << ' ' << engine;
+  }
+}
+
+TEST_P(SurfaceModelRead, RoundCourt) {
+  constexpr double radius_m = 25.0;
+  pack([](Point2d p) { return norm(p) >= radius_m; }, GetParam().arguments);
+  // The centres of roof pixels lie outside of the circle; a corner of a pixel, or what joins two neighbors by a chord, reaches
+  // into it. A point that is farther than a pixel's diagonal outside has roof pixels all around
+  const double diagonal_m = std::sqrt(2.0) * pixel_m;
+  const double chord_m = diagonal_m * diagonal_m / (8.0 * radius_m);
+  const double least_radius_m = radius_m - std::max(chord_m, std::sqrt(2.0) * GetParam().before_centres_m),
+               largest_radius_m = radius_m + diagonal_m;
+  // Stairs around a circle are no longer than the square around it, and the unit disk shows them smaller by the rise at least
+  const double sampling = sampling_error(rays, 8.0 * largest_radius_m / rise_m);
+  for (const Point2d p : {Point2d{}, {10.0, 0.0}, {-6.0, 8.0}, {0.0, -20.0}})
+    for (const char* engine : {"auto", "exact"}) {
+      const double svf = svf_at(p, engine);
+      EXPECT_GE(svf, oracles::round_court_cos(least_radius_m, rise_m, norm(p)) - sampling) << p.x << ' ' << p.y;
+      EXPECT_LE(svf, oracles::round_court_cos(largest_radius_m, rise_m, norm(p)) + sampling) << p.x << ' ' << p.y;
+    }
+}
+
+TEST_P(SurfaceModelRead, OnARoofThereIsNothingAbove) {
+  pack([](Point2d p) { return norm(p) >= 25.0; }, GetParam().arguments);
+  for (const Point2d p : {Point2d{30.0, 0.0}, {-32.5, 31.0}}) EXPECT_EQ(svf_at(p, "exact"), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Readings, SurfaceModelRead,
+                         testing::Values(Reading{"Walls", "", 0.5 * pixel_m}, Reading{"Tin", "--surface tin", 0.0}),
+                         [](const auto& reading) { return std::string(reading.param.name); });
+
+TEST_F(SurfaceModel, TellsWhatStandsBetweenItsPixels) {
+  const auto is_roof = [](Point2d p) { return p.x > 0.0; };
+  pack(is_roof);
+  EXPECT_NE(said().find("walls stand on 321 sides of pixels"), std::string::npos) << said();
+  pack(is_roof, "--surface tin");
+  EXPECT_EQ(said().find("walls stand"), std::string::npos) << said();
+  pack_heights([](Point2d p) { return 0.5 * p.x; });
+  EXPECT_EQ(said().find("walls stand"), std::string::npos) << said();
+  folder.write("town.geojson", footprints_geojson(small_town()));
+  folder.must("farlod-pack town.geojson --surface tin -o b.farlod > said.txt 2>&1");
+  EXPECT_NE(said().find("--surface is for a raster"), std::string::npos) << said();
+}
+
+/// A quarter of the outermost pixels lies beyond all centres.
+TEST_F(SurfaceModel, WithWallsCoversWholePixels) {
+  const Point2d in_corner{-40.0 - 0.4 * pixel_m, 40.0 + 0.4 * pixel_m};
+  pack([](Point2d p) { return p.x > 0.0; });
+  EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf").empty(), false);
+  pack([](Point2d p) { return p.x > 0.0; }, "--surface tin");
+  EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf"), "");
+}
+
+}  // namespace
+}  // namespace farlod::acceptance
