@@ -155,6 +155,13 @@ struct PictureTile {
   return {0, static_cast<std::int32_t>(mapped->count_before(cells.index_of(cell)))};
 }
 
+/// The pixels of the raster that a city is: squares, north up in the output CRS.
+struct SurfacePixels {
+  Point2d north_west_m;  ///< outer corner of the first pixel
+  double step_m = 0.0;   ///< edge of a pixel
+  std::uint32_t columns = 0, rows = 0;
+};
+
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
   std::uint32_t version = format_version;  ///< of the format, as read; what is written has format_version
@@ -174,6 +181,7 @@ struct Manifest {
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
   std::optional<CanopyFile> canopy = {};                      ///< where there are crowns
   std::optional<FileStamp> sources = {};                      ///< of `sources.bin`, where city files have places for attributes
+  std::optional<SurfacePixels> pixels = {};                   ///< where the city is a raster
   std::optional<FileStamp> far_terrain = {};                  ///< of `far_terrain.bin`, where the ground beyond the grid is known
 
   /// Whether each cell has a far map.

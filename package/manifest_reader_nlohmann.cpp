@@ -160,6 +160,18 @@ BlockFiles block_from(const json& j) {
   return files;
 }
 
+SurfacePixels pixels_from(const json& j) {
+  SurfacePixels pixels;
+  pixels.north_west_m = {j.at("north_west_m").at(0).get<double>(), j.at("north_west_m").at(1).get<double>()};
+  pixels.step_m = j.at("step_m").get<double>();
+  pixels.columns = whole_number<std::uint32_t>(j.at("columns"));
+  pixels.rows = whole_number<std::uint32_t>(j.at("rows"));
+  require(std::abs(pixels.north_west_m.x) <= farthest_origin_m && std::abs(pixels.north_west_m.y) <= farthest_origin_m &&
+              pixels.step_m >= 1e-3 && pixels.step_m <= 1e6 && pixels.columns >= 1 && pixels.rows >= 1,
+          "its pixels are impossible");
+  return pixels;
+}
+
 CanopyFile canopy_from(const json& j) {
   constexpr std::uint64_t most_crowns = std::uint64_t{1} << 36;
   CanopyFile canopy{stamp_from(j), {}};
@@ -188,6 +200,7 @@ void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   const bool may_lack_crowns = version > canopy_format_version && !j.contains("canopy");
   if (version >= canopy_format_version && !may_lack_crowns) m.canopy = canopy_from(j.at("canopy"));
   if (version > canopy_format_version && j.contains("sources")) m.sources = stamp_from(j.at("sources"));
+  if (j.contains("pixels")) m.pixels = pixels_from(j.at("pixels"));
   if (version >= far_terrain_format_version) m.far_terrain = stamp_from(j.at("far_terrain"));
   for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b));
   require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");

@@ -94,6 +94,11 @@ std::string manifest_text(const Manifest& m) {
   for (const auto& [code, count] : m.problem_counts) j["problems"][std::to_string(code)] = count;
   j["blocks"] = Json::array();
   for (const package::BlockFiles& b : m.blocks) j["blocks"].push_back(json_of(b));
+  if (m.pixels)
+    j["pixels"] = {{"north_west_m", {m.pixels->north_west_m.x, m.pixels->north_west_m.y}},
+                   {"step_m", m.pixels->step_m},
+                   {"columns", m.pixels->columns},
+                   {"rows", m.pixels->rows}};
   if (m.canopy) j["canopy"] = json_of(*m.canopy);
   if (m.sources) j["sources"] = json_of(*m.sources);
   if (m.far_terrain) j["far_terrain"] = json_of(*m.far_terrain);

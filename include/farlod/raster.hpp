@@ -33,6 +33,11 @@ struct RasterPlan {
 /// m), so that rasters of neighboring runs fit together. Throws InvalidArgument.
 [[nodiscard]] FARLOD_EXPORT RasterPlan plan_raster(const Package& package, double step_m, const std::optional<Box2d>& part = {});
 
+/// The pixels of the raster that the city is, if it is one (PackSettings::inputs), as they were packed; those that meet `part`
+/// (projected).
+[[nodiscard]] FARLOD_EXPORT std::optional<RasterPlan> plan_of_surface_model(const Package& package,
+                                                                            const std::optional<Box2d>& part = {});
+
 /// Edge of a raster's tiles, in pixels: GDAL's default for tiled GeoTIFF files.
 inline constexpr std::size_t raster_tile_edge = 256;
 

@@ -24,6 +24,7 @@
 #include "pipeline/blocks.hpp"
 #include "pipeline/city_looks.hpp"
 #include "pipeline/city_reading.hpp"
+#include "pipeline/own_pixels.hpp"
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_target.hpp"
 #include "tiles/crowns_on_ground.hpp"
@@ -49,6 +50,7 @@ package::Manifest manifest_of(const ReadCity& city, const StageSettings& setting
   m.assign = settings.assign == Assign::clip ? "clip" : "whole";
   m.far_map = shape_of(city.far_map);
   m.inputs = inputs_of(origin);
+  m.pixels = own_pixels_of(city);
   return m;
 }
 

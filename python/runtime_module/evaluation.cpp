@@ -116,6 +116,13 @@ RasterPlan planned_in_python(const Package& package, double step_m, const std::o
   return plan_raster(package, step_m, Box2d{{west, south}, {east, north}});
 }
 
+std::optional<RasterPlan> plan_of_surface_model_in_python(const Package& package,
+                                                          const std::optional<std::array<double, 4>>& bbox_m) {
+  if (!bbox_m) return plan_of_surface_model(package);
+  const auto& [west, south, east, north] = *bbox_m;
+  return plan_of_surface_model(package, Box2d{{west, south}, {east, north}});
+}
+
 void add_raster(py::module_& module) {
   py::class_<RasterPlan>(module, "RasterPlan")
       .def(py::init([](std::pair<double, double> north_west_m, double step_m, std::size_t columns, std::size_t rows) {
@@ -128,6 +135,7 @@ void add_raster(py::module_& module) {
       .def_readonly("columns", &RasterPlan::columns)
       .def_readonly("rows", &RasterPlan::rows);
   module.def("plan_raster", &planned_in_python, py::arg("package"), py::arg("step_m"), py::arg("bbox_m"));
+  module.def("plan_of_surface_model", &plan_of_surface_model_in_python, py::arg("package"), py::arg("bbox_m"));
   module.def("evaluate_raster", &evaluate_raster_in_python, py::arg("package"), py::arg("plan"), py::arg("placing"),
              py::arg("settings"), py::arg("caller"));
   module.def("evaluate_window", &evaluate_window_in_python, py::arg("package"), py::arg("plan"), py::arg("window"),

@@ -31,7 +31,7 @@ void add_receivers(const SvfOptions& o, AnswerKey& key) {
       spacing();
       break;
     case ReceiverSource::grid:
-      if (o.grid_like.empty()) key.emplace_back("--grid", fmt::format("{}", o.grid_step_m));
+      if (o.grid_like.empty() && !o.own_pixels) key.emplace_back("--grid", fmt::format("{}", o.grid_step_m));
       break;
     case ReceiverSource::points:
     case ReceiverSource::at:

@@ -72,7 +72,8 @@ std::vector<double> numbers_in(const std::string& text, const std::string& optio
 }
 
 void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
-  auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at");
+  auto* receivers = app.add_option_group(
+      "Receivers", "Where the sky is looked at; of a city that is a raster, without any of these, its pixels");
   receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(between(0.01, 10000.0));
   receivers->add_option("--grid-like", raw.grid_like, "The pixels of this raster, such as the surface model that SOLWEIG runs on")
       ->type_name(file_value);
@@ -86,7 +87,7 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
       ->check(one_of(surface_choice_words));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
-  receivers->require_option(1);
+  receivers->require_option(0, 1);
 }
 
 void add_placing_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
@@ -197,6 +198,9 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
   } else if (!raw.surfaces.empty()) {
     o.source = ReceiverSource::surfaces;
     o.surfaces.choice = *value_of(surface_choice_words, raw.surfaces);
+  } else if (o.grid_step_m == 0.0) {
+    o.own_pixels = plan_of_surface_model(Package(o.package)).has_value();
+    if (!o.own_pixels) throw CLI::RequiredError("One of --grid,--grid-like,--points,--along,--surfaces,--at");
   }
 }
 

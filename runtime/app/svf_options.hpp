@@ -32,6 +32,7 @@ struct SvfOptions {
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
   std::filesystem::path grid_like;    ///< a raster whose pixels are the receivers; empty: pixels of `grid_step_m`
+  bool own_pixels = false;            ///< those of the raster that the city is are the receivers
   std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;

@@ -56,6 +56,21 @@ RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::opt
       {west * step_m, north * step_m}, step_m, static_cast<std::size_t>(east - west), static_cast<std::size_t>(north - south)};
 }
 
+RasterPlan plan_within(const RasterPlan& whole, const Box2d& box) {
+  // The pixels along one axis between two distances from its begin
+  const auto pixels_between = [&](double from_m, double to_m, std::size_t count) {
+    const double last = static_cast<double>(count) - 1.0;
+    const double begin = std::clamp(std::floor(from_m / whole.step_m), 0.0, last);
+    return std::pair(static_cast<std::size_t>(begin),
+                     static_cast<std::size_t>(std::clamp(std::ceil(to_m / whole.step_m), begin + 1.0, last + 1.0)));
+  };
+  const auto [west, east] = pixels_between(box.low.x - whole.north_west_m.x, box.high.x - whole.north_west_m.x, whole.columns);
+  const auto [north, south] = pixels_between(whole.north_west_m.y - box.high.y, whole.north_west_m.y - box.low.y, whole.rows);
+  const Point2d corner{whole.north_west_m.x + static_cast<double>(west) * whole.step_m,
+                       whole.north_west_m.y - static_cast<double>(north) * whole.step_m};
+  return {corner, whole.step_m, east - west, south - north};
+}
+
 std::vector<Cell> RasterReceivers::cells() const {
   std::vector<Cell> result;
   const CellRange& range = manifest_.grid.cells;

@@ -20,6 +20,9 @@ namespace farlod {
 [[nodiscard]] RasterPlan plan_raster(const package::Manifest& manifest, double step_m,
                                      const std::optional<Box2d>& wanted_projected);
 
+/// The pixels of a raster that meet a box, one at least.
+[[nodiscard]] RasterPlan plan_within(const RasterPlan& whole, const Box2d& box_projected);
+
 /// A rectangle of pixels, half open: rows run southwards.
 struct PixelRange {
   std::size_t column_begin = 0, column_end = 0, row_begin = 0, row_end = 0;

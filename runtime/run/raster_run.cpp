@@ -291,6 +291,16 @@ RasterPlan plan_raster(const Package& package, double step_m, const std::optiona
   return plan_raster(in_use.reader().manifest(), step_m, part);
 }
 
+std::optional<RasterPlan> plan_of_surface_model(const Package& package, const std::optional<Box2d>& part) {
+  const PackageInUse in_use(package);
+  const auto& pixels = in_use.reader().manifest().pixels;
+  if (!pixels) return std::nullopt;
+  const RasterPlan whole{pixels->north_west_m, pixels->step_m, pixels->columns, pixels->rows};
+  if (!part) return whole;
+  require_usable(*part, whole.step_m);
+  return plan_within(whole, *part);
+}
+
 EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
                                   const EvaluationSettings& settings, const OnRasterTile& on_tile, const RunSettings& run) {
   if (!on_tile) throw InvalidArgument("nobody takes the tiles: give evaluate_raster a function that does");

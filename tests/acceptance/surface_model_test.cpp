@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -115,6 +116,33 @@ TEST_F(SurfaceModel, WithWallsCoversWholePixels) {
   EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf").empty(), false);
   pack([](Point2d p) { return p.x > 0.0; }, "--surface tin");
   EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf"), "");
+}
+
+TEST_F(SurfaceModel, AnswersItsOwnPixelsUnlessOthersAreAskedFor) {
+  pack([](Point2d p) { return norm(p) >= 25.0; });
+  const RasterFile surface = read_raster(folder.path("dsm.asc"));
+  folder.must("farlod-svf a.farlod -o own.tif --height 0.05");
+  const RasterFile own = read_raster(folder.path("own.tif"));
+  ASSERT_EQ(std::pair(own.columns, own.rows), std::pair(surface.columns, surface.rows));
+  EXPECT_EQ(own.step_m, surface.step_m);
+  EXPECT_EQ(own.north_west.x, surface.north_west.x);
+  EXPECT_EQ(own.north_west.y, surface.north_west.y);
+  folder.must("farlod-svf a.farlod -o like.tif --grid-like dsm.asc --height 0.05");
+  EXPECT_EQ(own.values, read_raster(folder.path("like.tif")).values);
+  EXPECT_TRUE(std::all_of(own.values.begin(), own.values.end(), [](const auto& value) { return value.has_value(); }));
+}
+
+TEST_F(SurfaceModel, ABoxLeavesThoseOfItsPixelsThatItMeets) {
+  pack([](Point2d p) { return norm(p) >= 25.0; });
+  std::ostringstream box;
+  box << std::fixed << town_middle.x - 1.0 << ',' << town_middle.y - 1.0 << ',' << town_middle.x + 1.1 << ','
+      << town_middle.y + 30.0;
+  folder.must("farlod-svf a.farlod -o part.tif --bbox " + box.str());
+  const RasterFile part = read_raster(folder.path("part.tif"));
+  // Sides of pixels lie an eighth of a metre beside their centres, at whole quarters
+  EXPECT_EQ(std::pair(part.columns, part.rows), std::pair(std::size_t{9}, std::size_t{125}));
+  EXPECT_EQ(part.north_west.x, town_middle.x - 1.125);
+  EXPECT_EQ(part.north_west.y, town_middle.y + 30.125);
 }
 
 }  // namespace

@@ -86,6 +86,9 @@ def test_surface_model_in_memory(tmp_path: Path) -> None:
     assert 0.4 < foot < 0.7 < 0.9 < far < 1.0
     city = dsm.farlod.pack(tmp_path / "dsm.farlod", report=False)
     np.testing.assert_array_equal(city.svf_grid(like=dsm, height=0.0, above="surface").svf, svf)
+    xarray.testing.assert_equal(city.svf_grid(height=0.0, above="surface").svf.x, dsm.x)
+    part = city.svf_grid(bbox=(690010.0, 5.3e6 + 20.0, 690030.0, 5.3e6 + 25.0), height=0.0, above="surface").svf
+    np.testing.assert_array_equal(part, svf.sel(x=slice(690010.0, 690030.0), y=slice(5.3e6 + 25.0, 5.3e6 + 20.0)))
     upside_down = dsm.isel(y=slice(None, None, -1))
     np.testing.assert_array_equal(upside_down.farlod.svf().values, svf.values[::-1])
     assert set(dsm.farlod.svf(bounds=True).data_vars) == {"svf", "svf_low", "svf_high"}

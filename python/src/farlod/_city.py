@@ -610,7 +610,8 @@ class City:
         Parameters
         ----------
         step : float, optional
-            Edge of a pixel in metres, 0.01 to 10,000 (default: 1). Pixels begin at multiples of it.
+            Edge of a pixel in metres, 0.01 to 10,000. Pixels begin at multiples of it (default: of 1; or the pixels of the
+            raster that the city is).
         bbox : (west, south, east, north), optional
             In the CRS of the city.
         mask : geopandas.GeoSeries or GeoDataFrame of polygons, or a polygon of shapely in the CRS of the city, optional

@@ -68,7 +68,8 @@ def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
             raise InvalidArgument("like and step both say which pixels: give one of them")
         return _plan_like(like, crs)
     box = None if bbox is None else _arguments.bbox("bbox", bbox)
-    return _runtime.plan_raster(package, 1.0 if step is None else _arguments.number("step", step), box)
+    own = _runtime.plan_of_surface_model(package, box) if step is None else None
+    return own or _runtime.plan_raster(package, 1.0 if step is None else _arguments.number("step", step), box)
 
 
 def _names(evaluation: Evaluation) -> list[str]:

@@ -24,9 +24,9 @@ struct Change {
 /// The members of each kind of settings are bound here one by one: a new one does not compile until somebody has said below
 /// whether it changes values.
 [[maybe_unused]] void all_members_are_known(SvfOptions& o) {
-  [[maybe_unused]] auto& [package, output, format, preview_format, verify_format, source, grid_step_m, grid_like, points_file,
-                          points_crs, points_layer, surfaces, city_file, at, placing, bbox, mask, evaluation, sunshine, preview,
-                          verify_file, histogram, projection, memory_limit, resume, merge, shard, run] = o;
+  [[maybe_unused]] auto& [package, output, format, preview_format, verify_format, source, grid_step_m, grid_like, own_pixels,
+                          points_file, points_crs, points_layer, surfaces, city_file, at, placing, bbox, mask, evaluation,
+                          sunshine, preview, verify_file, histogram, projection, memory_limit, resume, merge, shard, run] = o;
   [[maybe_unused]] auto& [choice, spacing_m] = surfaces;
   [[maybe_unused]] auto& [above, height_m] = placing;
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
@@ -72,6 +72,7 @@ TEST_F(ResultKey, HasEachReceiver) {
   const SvfOptions grid = raster();
   expect_each_to_change(
       grid, {{"--grid", [](SvfOptions& o) { o.grid_step_m = 1.0; }},
+             {"no --grid", [](SvfOptions& o) { o.own_pixels = true; }},
              {"--grid-like", [&](SvfOptions& o) { o.grid_like = folder.file("a.tif"); }},
              {"--grid-like of other contents", [&](SvfOptions& o) { o.grid_like = folder.file("b.tif"); }},
              {"--height", [](SvfOptions& o) { o.placing.height_m = 2.0; }},

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "package/manifest.hpp"
+#include "pipeline/city_reading.hpp"
+
+namespace farlod::pipeline {
+
+/// The pixels of a city that is a raster, which was read as it is; none of other cities, nor where they are no squares.
+[[nodiscard]] std::optional<package::SurfacePixels> own_pixels_of(const ReadCity& city);
+
+}  // namespace farlod::pipeline
