@@ -203,6 +203,7 @@ struct TerrainRaster {
   std::size_t columns = 0, rows = 0;
   std::vector<std::optional<float>> height_m;  ///< row by row from the south; empty where the raster has no data
   std::vector<std::string> notes = {};         ///< for the user: what was done to the file
+  bool is_resampled = false;                   ///< its pixels are not those of a file
   bool has_walls = false;                      ///< on sides of pixels, where steps are (tiles::PixelSteps)
 
   [[nodiscard]] Point2d node(std::size_t column, std::size_t row) const {

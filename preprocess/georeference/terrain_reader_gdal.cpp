@@ -181,6 +181,7 @@ std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::st
   if (!terrain) refuse_raster(file.path, "cannot be read to its end");
   require_heights(*terrain, ready, of, *output, georeference.origin_m, report);
   shift_heights(*terrain, file.path.string(), own, georeference, report);
+  terrain->is_resampled = ready.warped != nullptr;
   if (!ready.note.empty()) terrain->notes.push_back(ready.note);
   return terrain;
 }

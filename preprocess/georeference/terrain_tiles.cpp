@@ -113,6 +113,7 @@ TerrainRaster merged(const std::vector<TerrainRaster>& tiles) {
   TerrainRaster net = net_over(tiles);
   for (const TerrainRaster& tile : tiles) {
     lay_upon(net, tile);
+    net.is_resampled |= tile.is_resampled;
     net.notes.insert(net.notes.end(), tile.notes.begin(), tile.notes.end());
   }
   return net;

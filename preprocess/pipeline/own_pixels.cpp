@@ -8,7 +8,8 @@ namespace farlod::pipeline {
 
 std::optional<package::SurfacePixels> own_pixels_of(const ReadCity& city) {
   const auto& raster = city.ground.terrain;
-  if (!raster || !city.located.city.buildings().empty() || raster->step_m.x != raster->step_m.y) return std::nullopt;
+  if (!raster || raster->is_resampled || !city.located.city.buildings().empty() || raster->step_m.x != raster->step_m.y)
+    return std::nullopt;
   const double step_m = raster->step_m.x;
   const Point2d middle = raster->node(0, raster->rows - 1) + city.located.georeference.origin_m;
   // Whole micrometres, as in the file: the frame's origin was subtracted, and is added again
