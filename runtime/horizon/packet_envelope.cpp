@@ -87,9 +87,9 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   Sums sums{};
   for (std::size_t l = 0; l < r.count; ++l) {
     find_doubts({occluders, nothing, r, l});
-    // Between edges, a lower border that is no higher than the horizons may show sky, too
+    // Between edges, a lower border that is no higher than this receiver's horizons may show sky, too
     for (const Doubt& d : doubts_)
-      terms_.gaps[d.wedge][l] = most_in_gap(std::max(gaps.borders[d.wedge][l], minima_[d.wedge]), r, l, d);
+      terms_.gaps[d.wedge][l] = most_in_gap(std::max(gaps.borders[d.wedge][l], lower_[d.wedge][l] * shape_.widened), r, l, d);
   }
   for (std::size_t k = 0; k < wedges_.size(); ++k) {
     if (gaps.reached[k] == 0) continue;

@@ -136,6 +136,21 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBorders) {
   }
 }
 
+TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBordersBetweenHorizons) {
+  // No border is given: those that are no higher than a receiver's horizons at both azimuths are nowhere told
+  const std::vector<std::uint8_t> reached(azimuths_.size(), 1);
+  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {rows_of(0.0F), reached}, receivers_);
+  for (std::size_t l = 0; l < receivers_.count; ++l) {
+    double between = 0.0;
+    for (std::size_t k = 0; k < envelope_.size(); ++k) {
+      const double border = std::min(horizon_.row(k)[l], horizon_.row(k + 1 < envelope_.size() ? k + 1 : 0)[l]);
+      const double lower = border * std::cos(turn_rad / static_cast<double>(azimuths_.size()));
+      between += (exact_sky(k, l, 0.0) - exact_sky(k, l, lower)) / turn_rad;
+    }
+    EXPECT_GE(gaps[l], between - float_error) << l;
+  }
+}
+
 TEST_P(PacketEnvelopes, AreTheSumsOfTheirTerms) {
   const PacketEnvelope::Rows nothing = rows_of(0.0F);
   envelope_.keep_terms();
