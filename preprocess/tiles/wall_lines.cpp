@@ -77,12 +77,12 @@ void WallLines::add_top(Along along, std::int64_t line, const Run& run) {
 }
 
 /// Between the borders of both sides. Where they cross, two triangles meet.
-void WallLines::add_wall(const TornPiece& w) {
-  const auto& [first, second] = w.heights_of_side_m;
+void WallLines::add_wall(const TornPiece& piece) {
+  const auto& [first, second] = piece.heights_of_side_m;
   const double begin_m = second[0] - first[0], end_m = second[1] - first[1];
   if (std::isnan(begin_m)) return;
-  const Point3d a = at_(w.place(w.begin), first[0]), b = at_(w.place(w.end), first[1]), c = at_(w.place(w.end), second[1]),
-                d = at_(w.place(w.begin), second[0]);
+  const Point3d a = at_(piece.place(piece.begin), first[0]), b = at_(piece.place(piece.end), first[1]),
+                c = at_(piece.place(piece.end), second[1]), d = at_(piece.place(piece.begin), second[0]);
   if (begin_m * end_m < 0.0) {
     const Point3d x = a + begin_m / (begin_m - end_m) * (b - a);
     surface_.triangles.push_back({a, x, d});
@@ -94,13 +94,13 @@ void WallLines::add_wall(const TornPiece& w) {
 }
 
 /// The border of a side, where it is somewhere above the other one.
-void WallLines::add_top(const TornPiece& w, std::size_t side) {
-  const auto &own = w.heights_of_side_m[side], &other = w.heights_of_side_m[1 - side];
+void WallLines::add_top(const TornPiece& piece, std::size_t side) {
+  const auto &own = piece.heights_of_side_m[side], &other = piece.heights_of_side_m[1 - side];
   if (std::isnan(own[0]) || (own[0] <= other[0] && own[1] <= other[1])) return;
   // The centre of the pixel lies beside that end which is the middle of its side
-  const bool begins_at_corner = w.begin % 2 == 0;
-  EdgeSides edge(at_(w.place(w.begin), own[0]), at_(w.place(w.end), own[1]));
-  edge.add(at_(w.aside(begins_at_corner ? w.end : w.begin, side), own[begins_at_corner ? 1 : 0]), FacetLook::up);
+  const bool begins_at_corner = piece.begin % 2 == 0;
+  EdgeSides edge(at_(piece.place(piece.begin), own[0]), at_(piece.place(piece.end), own[1]));
+  edge.add(at_(piece.aside(begins_at_corner ? piece.end : piece.begin, side), own[begins_at_corner ? 1 : 0]), FacetLook::up);
   if (edge.can_be_horizon()) surface_.edges.push_back({edge.edge(), edge.adjacent()});
 }
 

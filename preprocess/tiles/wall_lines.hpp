@@ -13,7 +13,7 @@
 
 namespace farlod::tiles {
 
-/// Half a side of a pixel, where two surfaces end, or one; none has the heights NaN. Counted in half pixels.
+/// Half a side of a pixel, where two surfaces end, or one; what is not there has the heights NaN. Counted in half pixels.
 struct TornPiece {
   enum class Along { x, y };
   Along along;
