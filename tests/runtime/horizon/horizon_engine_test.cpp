@@ -329,7 +329,9 @@ TEST(HorizonEngine, ASlabRightOverheadHidesAllThatIsAboveItsBorders) {
     EXPECT_TRUE((wants_bounds ? known.evaluate_with_bounds(receivers, intervals) : known.evaluate(receivers, intervals)).empty());
     // What is left above a horizon that stands for the zenith is less than 1e-12
     for (const float sky : {intervals[0].low, intervals[0].estimate}) EXPECT_NEAR(sky, 0.0F, 1e-12F);
-    EXPECT_LE(intervals[0].high, wants_bounds ? static_cast<float>(rounding_of_bounds) : 1e-12F);
+    // Between two azimuths, at corners of the walls, a border that is no higher than both horizons may show sky
+    constexpr double corners = 1e-5;
+    EXPECT_LE(intervals[0].high, wants_bounds ? static_cast<float>(rounding_of_bounds + corners) : 1e-12F);
     EXPECT_GT(intervals[1].estimate, 0.1F);
   }
 }
