@@ -34,7 +34,7 @@ struct RasterPlan {
 [[nodiscard]] FARLOD_EXPORT RasterPlan plan_raster(const Package& package, double step_m, const std::optional<Box2d>& part = {});
 
 /// The pixels of the raster that the city is, if it is one (PackSettings::inputs), as they were packed; those that meet `part`
-/// (projected).
+/// (projected), of which there must be some. Throws InvalidArgument.
 [[nodiscard]] FARLOD_EXPORT std::optional<RasterPlan> plan_of_surface_model(const Package& package,
                                                                             const std::optional<Box2d>& part = {});
 

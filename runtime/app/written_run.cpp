@@ -132,9 +132,9 @@ std::optional<Box2d> extent_of(const SvfOptions& options) {
 RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_unused]] std::vector<std::string>& notes) {
   if (options.own_pixels) {
     const RasterPlan plan = *plan_of_surface_model(package, extent_of(options));
-    notes.push_back(
-        fmt::format("The city is a raster: its own pixels, {} × {} of {:g} m, are answered. Beyond it nothing hides the sky.",
-                    plan.columns, plan.rows, plan.step_m));
+    notes.push_back(fmt::format(
+        "The city is a raster: its own pixels, {} × {} of {:g} m, are answered. Beyond it, only a far terrain hides the sky.",
+        plan.columns, plan.rows, plan.step_m));
     return plan;
   }
   if (options.grid_like.empty()) return plan_raster(package, options.grid_step_m, extent_of(options));

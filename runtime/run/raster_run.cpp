@@ -298,6 +298,11 @@ std::optional<RasterPlan> plan_of_surface_model(const Package& package, const st
   const RasterPlan whole{pixels->north_west_m, pixels->step_m, pixels->columns, pixels->rows};
   if (!part) return whole;
   require_usable(*part, whole.step_m);
+  const Point2d corner = whole.north_west_m;
+  const double east_m = corner.x + static_cast<double>(whole.columns) * whole.step_m,
+               south_m = corner.y - static_cast<double>(whole.rows) * whole.step_m;
+  if (part->high.x <= corner.x || part->low.x >= east_m || part->low.y >= corner.y || part->high.y <= south_m)
+    throw InvalidArgument("the part of the raster lies beyond the raster that the city is: check its coordinates");
   return plan_within(whole, *part);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <sstream>
 
@@ -143,6 +144,8 @@ TEST_F(SurfaceModel, ABoxLeavesThoseOfItsPixelsThatItMeets) {
   EXPECT_EQ(std::pair(part.columns, part.rows), std::pair(std::size_t{9}, std::size_t{125}));
   EXPECT_EQ(part.north_west.x, town_middle.x - 1.125);
   EXPECT_EQ(part.north_west.y, town_middle.y + 30.125);
+  EXPECT_NE(folder.run("farlod-svf a.farlod -o none.tif --bbox 1,1,5,5").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("none.tif")));
 }
 
 }  // namespace
