@@ -275,8 +275,7 @@ def pack(
     terrain_offset : float, default 0
         Metres added to them, where they count from another datum than the buildings.
     surface : {"auto", "tin"}, default "auto"
-        What stands between the pixels of a surface model: walls where they are a step apart and slopes elsewhere, or slopes
-        alone (triangulated irregular network).
+        Between pixels of a surface model stand walls where they are a step apart and slopes elsewhere, or slopes alone.
     far_terrain : path, xarray.DataArray, or a list of them, optional
         Elevations around the city, of any resolution: mountains beyond what `terrain` covers hide the sky. A path may be a
         folder of tiles.
@@ -286,8 +285,7 @@ def pack(
         Where the heights of footprints come from; a str is the attribute with the height above the base. Without it, names that
         are usual (``height``, ``measuredHeight``, ``building:levels``, ...) are looked for.
     crs, out_crs : anything that pyproj takes, optional
-        Of inputs that do not say theirs, and of the package: projected, and in metres. By default the input's, or UTM for
-        degrees.
+        Of inputs that do not say theirs, and of the package: projected, in metres (default: the input's, or UTM for degrees).
     area : (west, south, east, north), path or GeoDataFrame, optional
         Makes far maps for this part only, or adds them to the package that is there.
     align : {"auto", "none"} or float
@@ -374,17 +372,15 @@ def pack(
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(prefix="farlod-") as folder:
         models = city if isinstance(city, list) else [city]
-        saved = [saved_model(model, folder, f"city_{n}", crs=settings.crs) for n, model in enumerate(models)]
-        settings.set_inputs([model.path for model in saved])
-        if terrain is not None:
-            tiles = terrain if isinstance(terrain, list) else [terrain]
-            saved_tiles = [saved_model(tile, folder, f"terrain_{n}", crs=settings.crs) for n, tile in enumerate(tiles)]
-            settings.set_terrain([tile.path for tile in saved_tiles])
+        for name, given, take in (
+            ("city", models, settings.set_inputs),
+            ("terrain", terrain, settings.set_terrain),
+            ("far_terrain", far_terrain, settings.set_far_terrains),
+        ):
+            if given is not None:
+                files = given if isinstance(given, (list, tuple)) else [given]
+                take([saved_model(file, folder, f"{name}_{n}", crs=settings.crs).path for n, file in enumerate(files)])
         settings.terrain_offset_m = _arguments.number("terrain_offset", terrain_offset)
-        if far_terrain is not None:
-            rasters = far_terrain if isinstance(far_terrain, (list, tuple)) else [far_terrain]
-            saved_far = [saved_model(raster, folder, f"far_terrain_{n}", crs=settings.crs) for n, raster in enumerate(rasters)]
-            settings.set_far_terrains([raster.path for raster in saved_far])
         if trees is not None:
             trees = trees if isinstance(trees, Trees) else Trees(inventory=trees)
             described = _trees(trees, module, folder, settings.crs)
