@@ -11,13 +11,6 @@ namespace {
 
 using Row = PacketHorizon::Row;
 
-bool all_look_straight_up(const ReceiverPacket& r) {
-  bool all_do = true;
-  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-    all_do = all_do && r.normal_x[l] == 0.0F && r.normal_y[l] == 0.0F && r.normal_z[l] > 0.0F;
-  return all_do;
-}
-
 /// As the kernels read them.
 const float* data_of(const SkyProfile::Rows& rows) { return rows.empty() ? nullptr : rows.front().data(); }
 
@@ -61,7 +54,7 @@ void CanopySky::evaluate(std::span<const SkyProfile> profiles, std::span<const R
 }
 
 CrownScene CanopySky::scene_of(const ReceiverPacket& receivers, const CrownBatches& crowns) const {
-  return {crowns.batches(), &receivers, azimuths_.view(), range_square_, all_look_straight_up(receivers)};
+  return {crowns.batches(), &receivers, azimuths_.view(), range_square_, receivers.all_look_straight_up()};
 }
 
 void CanopySky::find_lowest_grounds(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {

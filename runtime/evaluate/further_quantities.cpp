@@ -130,10 +130,6 @@ void find_sky(const SkyProfile& profile, const SkyProfile::Rows& known, const Re
   add_sky_in_gaps(profile, receivers, azimuths, 0.0F, straight_up, is_solid, rows);
 }
 
-bool looks_straight_up(const ReceiverPacket& r, std::size_t lane) {
-  return r.normal_x[lane] == 0.0F && r.normal_y[lane] == 0.0F && r.normal_z[lane] > 0.0F;
-}
-
 /// The slopes at an azimuth at which the sun shines on a receiver's front: o + w t > 0.
 struct SlopesInFront {
   float from = 0.0F, to = straight_up;
@@ -288,7 +284,7 @@ void FurtherQuantities::add_directional(const ProfiledPacket& packet, QuantityCo
     for (std::size_t l = 0; l < packet_lanes; ++l) {
       // What the answer knows better than the profile is not known by azimuth: it goes to both halves alike
       half[l] = std::max(0.0F, static_cast<float>(sums[l] + static_cast<double>(sky.svf[l]) - static_cast<double>(all[l])));
-      if (looks_straight_up(receivers, l)) half[l] = std::min(half[l], 1.0F);
+      if (receivers.looks_straight_up(l)) half[l] = std::min(half[l], 1.0F);
     }
     columns.add(half);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <numeric>
 
@@ -138,9 +139,11 @@ std::vector<std::size_t> CertainSky::OpenWedges::widest_first() const {
 
 double CertainSky::most_in_recess(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead) const {
   if (!has_bit(overhead.in_recess, l)) return 0.0;
-  // By the cosine, one azimuth tells at most √(1 + π²/4) of a receiver that leans, and 1 of a level one
-  const bool is_level = weight_ == SkyWeight::solid_angle || receivers.normal_z[l] == 1.0F;
-  return (is_level ? 1.0 : 2.0) * turn_rad / static_cast<double>(envelope_.size());
+  // By the cosine, one azimuth tells at most n_z + π/2 · √(n_x² + n_y²): the integrals of 2 cos θ sin θ and of 2 sin²θ
+  const double lean = std::hypot(receivers.normal_x[l], receivers.normal_y[l]);
+  const bool is_cosine = weight_ == SkyWeight::cosine;
+  const double most = is_cosine ? std::max(0.0F, receivers.normal_z[l]) + 0.5 * std::numbers::pi * lean : 1.0;
+  return most * turn_rad / static_cast<double>(envelope_.size());
 }
 
 void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead, Open& open, Bounds& bounds) {

@@ -100,9 +100,8 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
 
 /// The horizons, and the ends that rise above them, in the wedges that are asked.
 void PacketEnvelope::draw(const Occluders& occluders, const ReceiverPacket& r, const std::uint8_t* asked) {
-  const bool look_up = std::all_of(r.normal_z.begin(), r.normal_z.end(), [](float z) { return z == 1.0F; });
   wedge_weight_ = weight_ == SkyWeight::solid_angle ? WedgeWeight::solid_angle
-                  : look_up                         ? WedgeWeight::cosine_up
+                  : r.all_look_straight_up()        ? WedgeWeight::cosine_up
                                                     : WedgeWeight::cosine;
   slopes_ = occluders.horizon.slopes();
   numbers_ = occluders.horizon.numbers();

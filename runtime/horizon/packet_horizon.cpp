@@ -9,13 +9,6 @@
 namespace farlod {
 namespace {
 
-bool all_point_straight_up(const ReceiverPacket& r) {
-  bool all_do = true;
-  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-    all_do = all_do && r.normal_x[l] == 0.0F && r.normal_y[l] == 0.0F && r.normal_z[l] > 0.0F;
-  return all_do;
-}
-
 bool all_are_level(const ReceiverPacket& r) {
   return std::all_of(r.normal_z.begin(), r.normal_z.end(), [](float z) { return z == 0.0F; });
 }
@@ -111,7 +104,7 @@ PacketHorizon::Lanes PacketHorizon::sky_above(SkyWeight weight, const ReceiverPa
   // The mean over the azimuths, by the cheapest kernel that fits the normals
   if (weight == SkyWeight::solid_angle)
     kernels.sum_solid_angle(data(), receivers, azimuths_->view(), sums.data(), rows);
-  else if (all_point_straight_up(receivers))
+  else if (receivers.all_look_straight_up())
     kernels.sum_cosine_up(data(), slopes_.size(), sums.data(), rows);
   else if (all_are_level(receivers))
     kernels.sum_cosine_level(data(), receivers, azimuths_->view(), sums.data(), rows);

@@ -39,6 +39,15 @@ struct ReceiverPacket {
     ++count;
   }
   [[nodiscard]] float lowest_z() const { return *std::min_element(z.begin(), z.end()); }
+  /// All of the normal counts: its z is 1 also where it leans by .0002 rad, which changes a sky view factor by up to .0001.
+  [[nodiscard]] bool looks_straight_up(std::size_t lane) const {
+    return normal_x[lane] == 0.0F && normal_y[lane] == 0.0F && normal_z[lane] > 0.0F;
+  }
+  [[nodiscard]] bool all_look_straight_up() const {
+    bool all_do = true;
+    for (std::size_t l = 0; l < lanes; ++l) all_do = all_do && looks_straight_up(l);
+    return all_do;
+  }
 
  private:
   void set(std::size_t lane, const Receiver& r) {

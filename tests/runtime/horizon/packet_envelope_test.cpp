@@ -168,13 +168,14 @@ TEST_P(PacketEnvelopes, AreTheSumsOfTheirTerms) {
   }
 }
 
-const std::vector<Point3f> looking_up{{0, 0, 1}},
+const std::vector<Point3f> looking_up{{0, 0, 1}}, looking_almost_up{{2.4e-4F, 0, 1}},
     looking_anywhere{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.8F, 0.6F}, {-0.8F, 0.6F, 0}, {0, 1, 0}},
     looking_down{{0.8F, 0, -0.6F}, {0, 0.6F, -0.8F}};
 INSTANTIATE_TEST_SUITE_P(Receivers, PacketEnvelopes,
                          testing::Values(EnvelopeCase{"Up8", 8, SkyWeight::cosine, looking_up},
                                          EnvelopeCase{"Up64", 64, SkyWeight::cosine, looking_up},
                                          EnvelopeCase{"Up320", 320, SkyWeight::cosine, looking_up},
+                                         EnvelopeCase{"AlmostUp320", 320, SkyWeight::cosine, looking_almost_up},
                                          EnvelopeCase{"Any8", 8, SkyWeight::cosine, looking_anywhere},
                                          EnvelopeCase{"Any320", 320, SkyWeight::cosine, looking_anywhere},
                                          EnvelopeCase{"Down320", 320, SkyWeight::cosine, looking_down},
