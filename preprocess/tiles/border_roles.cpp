@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -106,6 +107,51 @@ std::vector<UpperBorder> without_those_below_grounded(const std::vector<UpperBor
   return result;
 }
 
+/// Where borders that are not grounded end.
+class OverhangEnds {
+ public:
+  explicit OverhangEnds(const std::vector<UpperBorder>& borders) {
+    for (const UpperBorder& border : borders) {
+      const auto& [a, b] = border.segment.segment;
+      if (border.segment.role != EdgeRole::overhang) continue;
+      ends_.push_back({a, horizontal(b - a)});
+      ends_.push_back({b, horizontal(a - b)});
+    }
+    std::sort(ends_.begin(), ends_.end(), [](const End& e, const End& f) { return comes_first(e.place, f.place); });
+  }
+  /// Whether the corner leans in below such a border: at some azimuths, what is below the border's end ends on the corner.
+  [[nodiscard]] bool overhang(const Segment3d& corner) const {
+    const auto comes_before = [](const End& e, const Point3d& p) { return comes_first(e.place, p); };
+    const Point2d lean = horizontal(corner.b - corner.a);
+    auto end = std::lower_bound(ends_.begin(), ends_.end(), corner.a, comes_before);
+    for (; end != ends_.end() && end->place == corner.a; ++end)
+      if (dot(lean, end->inward) > least_sliver_m * norm(end->inward)) return true;
+    return false;
+  }
+
+ private:
+  struct End {
+    Point3d place;
+    Point2d inward;  ///< the way along the border
+  };
+  std::vector<End> ends_;
+};
+
+/// The lower borders at corners, each at the height of its upper end. Where one ends, the next one below it goes on.
+std::vector<HorizonSegment> lower_borders_at(std::vector<Segment3d> corners, const std::vector<UpperBorder>& borders) {
+  constexpr AdjacentSlopes straight_up{AdjacentSlopes::straight_up, AdjacentSlopes::straight_up};
+  std::stable_sort(corners.begin(), corners.end(), [](const Segment3d& c, const Segment3d& d) { return c.a.z > d.a.z; });
+  const OverhangEnds ends(borders);
+  std::set<Point3d, decltype(&comes_first)> feet(&comes_first);
+  std::vector<HorizonSegment> result;
+  for (const auto& [top, foot] : corners) {
+    if (!ends.overhang({top, foot}) && !feet.contains(top)) continue;
+    feet.insert(foot);
+    result.push_back({{top, {foot.x, foot.y, top.z}}, straight_up, EdgeRole::underside});
+  }
+  return result;
+}
+
 /// What a building's inside, and its walls, tell of its upper borders.
 class BorderRoles {
  public:
@@ -181,11 +227,7 @@ BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<
   if (building.only_cell) roles.leave_recesses_open();
   roles.find(result.upper);
   result.upper = without_those_below_grounded(result.upper);
-  for (const UpperBorder& border : result.upper) {
-    const Segment3d& s = border.segment.segment;
-    if (border.segment.role == EdgeRole::overhang && norm(s.b - s.a) <= contact_m)
-      result.slivers.push_back({s, {AdjacentSlopes::straight_up, AdjacentSlopes::straight_up}, EdgeRole::underside});
-  }
+  result.corners = lower_borders_at(std::move(building.corners), result.upper);
   const SortedSegments hiding = grounded_of(result.upper);
   for (const HorizonSegment& underside : undersides)
     for (const HorizonSegment& part : roles.outside_of_solid(underside)) add_seen_parts(part, hiding, result.undersides);

@@ -22,11 +22,10 @@ struct UpperBorder {
 struct BordersWithRoles {
   std::vector<UpperBorder> upper;
   std::vector<HorizonSegment> undersides;
-  /// Lower borders where something leans out by some millimetres at the end of a grounded border. What touches them tells
-  /// nothing.
-  std::vector<HorizonSegment> slivers;
+  /// Lower borders where walls that lean by some millimetres end at a corner. What touches them tells nothing.
+  std::vector<HorizonSegment> corners;
 };
-/// `undersides`: those of the building that are above the ground. It loses its walls and slabs.
+/// `undersides`: those of the building that are above the ground. It loses its walls, slabs and corners.
 [[nodiscard]] BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,
                                                   const GroundHeightAt& ground_height);
 

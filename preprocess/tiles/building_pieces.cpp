@@ -13,6 +13,7 @@
 #include "tiles/building_bases.hpp"
 #include "tiles/facet_repair.hpp"
 #include "tiles/facet_triangulation.hpp"
+#include "tiles/solid_to_ground.hpp"
 
 namespace farlod::tiles {
 namespace {
@@ -184,12 +185,24 @@ class BuildingCutter {
       result_.upper_pieces.insert(result_.upper_pieces.end(), pieces.begin(), pieces.end());
     }
     result_.undersides = undersides(table.edges());
-    if (result_.undersides.empty()) result_.upper_borders = {};
+    if (result_.undersides.empty())
+      result_.upper_borders = {};
+    else
+      find_leaning_corners(table.edges());
     if (!has_undersides_above_floor()) return;
     result_.walls = wall_profiles(city_, building_);
     for (const EdgeSides& e : table.edges())
       if (e.triangle_count() % 2 != 0) result_.loose_edges.push_back(e.edge());
     find_slabs();
+  }
+
+  void find_leaning_corners(std::span<const EdgeSides> edges) {
+    for (const EdgeSides& e : edges) {
+      const auto& [a, b] = e.edge();
+      const double run_m = norm(horizontal(b - a));
+      if (run_m <= least_sliver_m || (run_m > contact_m && !e.counts_as_upright())) continue;
+      result_.corners.push_back(a.z > b.z ? Segment3d{a, b} : Segment3d{b, a});
+    }
   }
 
   void find_slabs() {

@@ -54,6 +54,7 @@ struct BuildingPieces {
   std::optional<std::vector<WallProfile>> walls;
   std::vector<Slab> slabs;             ///< of such a building
   std::vector<Segment3d> loose_edges;  ///< its edges of an odd number of triangles: where it is not closed
+  std::vector<Segment3d> corners;      ///< its steep edges that lean by some millimetres, from their upper ends
   std::optional<Cell> only_cell;       ///< the cell of the whole building when it is not cut
   std::vector<Problem> problems;       ///< without the source, which a building alone does not know; grid frame
 };

@@ -187,11 +187,14 @@ AdjacentSlopes EdgeSides::lowest_adjacent_slopes() const {
   return {AdjacentSlopes::rounded_up(left_low_rad_ + give_rad), AdjacentSlopes::rounded_up(right_low_rad_ + give_rad)};
 }
 
+bool EdgeSides::counts_as_upright() const {
+  const Point3d along = edge_.b - edge_.a;
+  return norm(horizontal(along)) <= std::max(least_extent_m, std::min(leaning_wall_z * norm(along), max_lean_m));
+}
+
 bool EdgeSides::can_be_underside() const {
   // A vertical edge has no lower side, and a wall below the edge closes it
-  const Point3d along = edge_.b - edge_.a;
-  const double upright_run_m = std::max(least_extent_m, std::min(leaning_wall_z * norm(along), max_lean_m));
-  if (norm(horizontal(along)) <= upright_run_m || over_wall_) return false;
+  if (counts_as_upright() || over_wall_) return false;
   // The lowest triangles on both sides bend upwards: below the edge there is no facet
   return left_low_rad_ + right_low_rad_ > slight_bend_rad && !is_valley();
 }

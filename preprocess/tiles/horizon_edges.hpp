@@ -79,6 +79,8 @@ class EdgeSides {
   [[nodiscard]] AdjacentSlopes lowest_adjacent_slopes() const;
   /// The edge is a valley between facets that look up, as between two roofs. Below it lies the inside of a closed building.
   [[nodiscard]] bool is_valley() const;
+  /// It runs so little in the plan that no triangle counts as lying above or below it, though it may lean by some millimetres.
+  [[nodiscard]] bool counts_as_upright() const;
   /// False: from every eye below the edge, one of the triangles reaches at least as low as the edge wherever the edge is seen.
   [[nodiscard]] bool can_be_underside() const;
   /// A triangle continues below the edge: a wall, or a facet that falls. It may close what another edge on the same line leaves

@@ -120,7 +120,7 @@ class TileCutter {
   /// A building with lower borders that none of its own facets closes.
   struct OverhangingBuilding {
     std::vector<UpperBorder> upper_borders;
-    std::vector<CellEdge> undersides, slivers;
+    std::vector<CellEdge> undersides, corners;
     std::optional<Cell> only_cell;
     struct {
       std::uint32_t begin = 0, end = 0;
@@ -252,7 +252,7 @@ class TileCutter {
     });
     overhanging.upper_borders = std::move(borders.upper);
     overhanging.undersides = cut(borders.undersides, cut_building.only_cell);
-    overhanging.slivers = cut(borders.slivers, cut_building.only_cell);
+    overhanging.corners = cut(borders.corners, cut_building.only_cell);
   }
 
   [[nodiscard]] std::vector<CellEdge> cut(const std::vector<HorizonSegment>& borders,
@@ -318,7 +318,7 @@ class TileCutter {
       for (const CellEdge& underside : overhanging_[n].undersides)
         for (const HorizonEdge& part : without_contacts(underside.edge, tiles_.tile(underside.cell)))
           open.push_back({underside.cell, part});
-      open.insert(open.end(), overhanging_[n].slivers.begin(), overhanging_[n].slivers.end());
+      open.insert(open.end(), overhanging_[n].corners.begin(), overhanging_[n].corners.end());
       overhanging_[n].undersides = std::move(open);
     });
     for (const OverhangingBuilding& building : overhanging_) {

@@ -248,6 +248,42 @@ TEST(BorderRoles, WhatLeansOutAtACornerShowsSkyBelow) {
   }
 }
 
+TEST(BorderRoles, ACornerThatLeansInIsALowerBorder) {
+  // A tower on a house: its top reaches .5 mm farther north and east than its foot. Beside the walls' ends no column of the
+  // solid is below their upper borders, for more than a corner's width
+  std::vector<Face> faces = test::box(10, 10, 20, 20, 0, 5);
+  std::vector<Face> tower = test::box(12, 12, 18, 18, 5, 9);
+  for (Face& face : tower)
+    for (Point3d& p : face)
+      if (p.z == 9) p = {p.x == 18 ? 18.0005 : p.x, p.y == 18 ? 18.0005 : p.y, p.z};
+  add(tower, faces);
+  add(test::box(2, 2, 3, 3, 6, 7), faces);  // what overhangs
+  const Borders borders(faces);
+  EXPECT_TRUE(test::covers(borders.overhang, {{18.0005, 18.0005, 9}, {17.9, 18.0005, 9}}));
+  EXPECT_TRUE(test::has_near(borders.undersides, {{18, 18, 9}, {18.0005, 18.0005, 9}}));
+}
+
+TEST(BorderRoles, ACornerInPiecesIsALowerBorderInPieces) {
+  // The same in two storeys: the upper one leans by .5 mm, and so does the lower one
+  std::vector<Face> faces = test::box(10, 10, 20, 20, 0, 5);
+  const auto leaning = [](double low_m, double high_m, double out_m) {
+    std::vector<Face> storey = test::box(12, 12, 18 + out_m, 18 + out_m, low_m, high_m);
+    for (Face& face : storey)
+      for (Point3d& p : face)
+        if (p.z == high_m) p = {p.x > 12 ? p.x + .0005 : p.x, p.y > 12 ? p.y + .0005 : p.y, p.z};
+    return storey;
+  };
+  std::vector<Face> lower = leaning(5, 7, 0), upper = leaning(7, 9, .0005);
+  lower.erase(lower.begin());  // its roof
+  upper.pop_back();            // and the other's floor
+  add(lower, faces);
+  add(upper, faces);
+  add(test::box(2, 2, 3, 3, 6, 7), faces);  // what overhangs
+  const Borders borders(faces);
+  EXPECT_TRUE(test::has_near(borders.undersides, {{18.0005, 18.0005, 9}, {18.001, 18.001, 9}}));
+  EXPECT_TRUE(test::has_near(borders.undersides, {{18, 18, 7}, {18.0005, 18.0005, 7}}));
+}
+
 TEST(BorderRoles, WhatIsRightBelowAGroundedBorderIsNoHorizon) {
   // A balcony at the south wall: its inner border lies on the wall, below the wall's upper border
   std::vector<Face> faces = test::box(10, 10, 20, 20, 0, 9);

@@ -61,6 +61,15 @@ inline bool covers(const std::vector<Segment3d>& others, const Segment3d& segmen
   return true;
 }
 
+/// Whether one of the segments has these ends, within the rounding of cells.
+inline bool has_near(const std::vector<Segment3d>& segments, const Segment3d& wanted) {
+  constexpr double rounding_m = 1e-5;
+  return std::any_of(segments.begin(), segments.end(), [&](const Segment3d& s) {
+    return (norm(s.a - wanted.a) <= rounding_m && norm(s.b - wanted.b) <= rounding_m) ||
+           (norm(s.a - wanted.b) <= rounding_m && norm(s.b - wanted.a) <= rounding_m);
+  });
+}
+
 inline std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edges) {
   std::vector<Segment3d> segments;
   for (const HorizonSegment& e : edges) segments.push_back(e.segment);
