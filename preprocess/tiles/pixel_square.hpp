@@ -8,6 +8,7 @@
 
 #include "base/frame.hpp"
 #include "city/city_model.hpp"
+#include "package/pixel_middle.hpp"
 #include "tiles/pixel_steps.hpp"
 
 namespace farlod::tiles {
@@ -33,33 +34,18 @@ class PixelPlaces {
   const GridRotation& rotation_;
 };
 
-/// The square between the centres of four pixels, around the corner that they share. They are numbered counter-clockwise from the
-/// south-west, and side k of the square runs from pixel k to the next one. Pixels beyond the raster have no height.
-struct PixelSquare {
+/// The square between the centres of four pixels. Pixels beyond the raster have no height.
+struct PixelSquare : FourPixels, PixelMiddle {
   PixelSquare(const TerrainRaster& raster, const PixelSteps& steps, std::size_t column, std::size_t row);
 
-  [[nodiscard]] static std::size_t next(std::size_t k) { return (k + 1) % 4; }
-  [[nodiscard]] static std::size_t before(std::size_t k) { return (k + 3) % 4; }
   [[nodiscard]] HalfPixels centre_of(std::size_t k) const { return {middle.x + aside[k].x, middle.y + aside[k].y}; }
   /// The middle of side k, on the side that both pixels share.
-  [[nodiscard]] HalfPixels middle_of(std::size_t k) const {
+  [[nodiscard]] HalfPixels middle_of_side(std::size_t k) const {
     return {middle.x + (aside[k].x + aside[next(k)].x) / 2, middle.y + (aside[k].y + aside[next(k)].y) / 2};
   }
-  /// All four are joined: the surface is one piece without a fold at its middle.
-  [[nodiscard]] bool is_whole() const { return joined[0] && joined[1] && joined[2] && joined[3]; }
-  /// The corners at the ends of the diagonal that folds a whole square: where heights differ less.
-  [[nodiscard]] std::size_t fold() const;
 
   static constexpr std::array<HalfPixels, 4> aside{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  HalfPixels middle;                        ///< the corner that the four share
-  std::array<bool, 4> has_height{};         ///< of the pixels
-  std::array<double, 4> height_m{};         ///< at their centres
-  std::array<bool, 4> joined{};             ///< by side: its pixels are joined
-  std::array<double, 4> middle_height_m{};  ///< of the surface of each pixel, at the middle of the square
-  std::array<bool, 4> is_level{};  ///< the pixel and those that are joined with it here, one after the other, are as high
-
- private:
-  void set_middle(std::size_t first, std::size_t count);
+  HalfPixels middle;  ///< the corner that the four share
 };
 
 }  // namespace farlod::tiles

@@ -60,11 +60,11 @@ class SurfaceMaker {
   [[nodiscard]] Point3d middle(const PixelSquare& s, std::size_t k) const { return at_(s.middle, s.middle_height_m[k]); }
   /// What follows pixel k around the middle: the next pixel, or where the surface is torn on the way there.
   [[nodiscard]] Point3d after(const PixelSquare& s, std::size_t k) const {
-    return s.joined[k] ? centre(s, PixelSquare::next(k)) : at_(s.middle_of(k), s.height_m[k]);
+    return s.joined[k] ? centre(s, PixelSquare::next(k)) : at_(s.middle_of_side(k), s.height_m[k]);
   }
   [[nodiscard]] Point3d ahead_of(const PixelSquare& s, std::size_t k) const {
     const std::size_t b = PixelSquare::before(k);
-    return s.joined[b] ? centre(s, b) : at_(s.middle_of(b), s.height_m[k]);
+    return s.joined[b] ? centre(s, b) : at_(s.middle_of_side(b), s.height_m[k]);
   }
 
   void add_square(const PixelSquare& s) {
