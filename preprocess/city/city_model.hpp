@@ -204,7 +204,7 @@ struct TerrainRaster {
   std::vector<std::optional<float>> height_m;  ///< row by row from the south; empty where the raster has no data
   std::vector<std::string> notes = {};         ///< for the user: what was done to the file
   bool is_resampled = false;                   ///< its pixels are not those of a file
-  bool has_walls = false;                      ///< on sides of pixels, where steps are (tiles::PixelSteps)
+  bool covers_pixels = false;                  ///< to their outer sides, with walls where steps are (tiles::SteppedSurface)
 
   [[nodiscard]] Point2d node(std::size_t column, std::size_t row) const {
     return {first.x + static_cast<double>(column) * step_m.x, first.y + static_cast<double>(row) * step_m.y};

@@ -23,8 +23,8 @@ namespace {
 
 Box2d outline_of(const TerrainRaster& terrain) {
   Box2d outline;
-  // A surface with walls covers whole pixels; others end at the centres of the outermost
-  const Point2d half = terrain.has_walls ? 0.5 * terrain.step_m : Point2d();
+  // Others end at the centres of the outermost pixels
+  const Point2d half = terrain.covers_pixels ? 0.5 * terrain.step_m : Point2d();
   outline.add(terrain.first - half);
   outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1) + half);
   return outline;
@@ -215,7 +215,7 @@ class CityReading {
     const std::string name = files_.terrain.files.front().path.string();
     if (std::max(surface.step_m.x, surface.step_m.y) > tiles::widest_pixel_with_walls_m) return;
     const std::size_t steps = tiles::PixelSteps(surface).count();
-    surface.has_walls = steps > 0;
+    surface.covers_pixels = steps > 0 || !surface.is_resampled;
     if (steps > 0)
       surface.notes.push_back(name + ": walls stand on " + std::to_string(steps) +
                               " sides of pixels whose neighbors are a step apart; --surface tin makes them slopes");

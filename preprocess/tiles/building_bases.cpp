@@ -66,7 +66,7 @@ PagedArray<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& r
 
 std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city,
                                       const Grid& grid, GroundExtent extent) {
-  if (terrain && terrain->has_walls) return Ground(*terrain, PixelSteps(*terrain), grid.rotation);
+  if (terrain && terrain->covers_pixels) return Ground(*terrain, PixelSteps(*terrain), grid.rotation);
   if (terrain) return Ground(nodes_of(*terrain, grid.rotation), grid.rectangle(), extent);
   if (relief_points_city.empty()) return std::nullopt;
   std::vector<Point3d> points_grid;

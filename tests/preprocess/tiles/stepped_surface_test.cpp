@@ -26,7 +26,7 @@ TerrainRaster raster_of(std::size_t columns, std::vector<std::optional<float>> h
   raster.columns = columns;
   raster.rows = height_m.size() / columns;
   raster.height_m = std::move(height_m);
-  raster.has_walls = true;
+  raster.covers_pixels = true;
   return raster;
 }
 
