@@ -127,7 +127,7 @@ std::string difference(std::string_view key, const Json& there, const Json& now)
 }
 
 constexpr std::array keys_before_tiles{"software", "inputs", "settings", "crs", "grid"};
-constexpr std::array keys_after_tiles{"frame", "counts", "problems", "canopy", "far_terrain"};
+constexpr std::array keys_after_tiles{"frame", "counts", "problems", "pixels", "canopy", "far_terrain"};
 
 Json value_of(const Json& manifest, const char* key) { return manifest.contains(key) ? manifest.at(key) : Json(); }
 

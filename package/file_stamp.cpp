@@ -112,7 +112,8 @@ bool are_whole(const std::filesystem::path& package, const package::BlockFiles& 
 bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest) {
   return (!manifest.canopy || is_whole(package / package::crowns_file, manifest.canopy->stamp)) &&
          (!manifest.sources || is_whole(package / package::sources_file, *manifest.sources)) &&
-         (!manifest.far_terrain || is_whole(package / package::far_terrain_file, *manifest.far_terrain));
+         (!manifest.far_terrain || is_whole(package / package::far_terrain_file, *manifest.far_terrain)) &&
+         (!manifest.heights() || is_whole(package / package::heights_file, *manifest.heights()));
 }
 
 }  // namespace farlod

@@ -37,7 +37,8 @@ void require_unchanged(const PackageFile& file, const FileIdentity& opened);
 
 /// Whether the files of a block are those that were written.
 [[nodiscard]] bool are_whole(const std::filesystem::path& package, const package::BlockFiles& files);
-/// Whether its files besides the blocks are whole: crowns, the places that surfaces come from, the far terrain.
+/// Whether its files besides the blocks are whole: crowns, the places that surfaces come from, the far terrain,
+/// the heights of pixels.
 [[nodiscard]] bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest);
 
 }  // namespace farlod

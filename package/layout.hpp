@@ -254,6 +254,7 @@ inline constexpr float farthest_in_tile_m = 1.3e7F;
 inline constexpr const char* tiles_file = "tiles.bin";
 inline constexpr const char* far_map_file = "far.exr";
 inline constexpr const char* manifest_file = "manifest.json";
+inline constexpr const char* heights_file = "heights.bin";          ///< in the folder of the package
 inline constexpr const char* far_terrain_file = "far_terrain.bin";  ///< in the folder of the package
 
 // Channels of far.exr, all half. Either kind has a channel Y, which any viewer shows as a grey picture.

@@ -160,6 +160,7 @@ struct SurfacePixels {
   Point2d north_west_m;  ///< outer corner of the first pixel
   double step_m = 0.0;   ///< edge of a pixel
   std::uint32_t columns = 0, rows = 0;
+  std::optional<FileStamp> heights = {};  ///< of `heights.bin`, where the surface is made of these pixels
 };
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.
@@ -184,6 +185,8 @@ struct Manifest {
   std::optional<SurfacePixels> pixels = {};                   ///< where the city is a raster
   std::optional<FileStamp> far_terrain = {};                  ///< of `far_terrain.bin`, where the ground beyond the grid is known
 
+  /// The stamp of `heights.bin`.
+  [[nodiscard]] std::optional<FileStamp> heights() const { return pixels ? pixels->heights : std::nullopt; }
   /// Whether each cell has a far map.
   [[nodiscard]] bool is_fully_mapped() const {
     return std::none_of(blocks.begin(), blocks.end(), [](const BlockFiles& b) { return b.mapped.has_value(); });

@@ -169,6 +169,7 @@ SurfacePixels pixels_from(const json& j) {
   require(std::abs(pixels.north_west_m.x) <= farthest_origin_m && std::abs(pixels.north_west_m.y) <= farthest_origin_m &&
               pixels.step_m >= 1e-3 && pixels.step_m <= 1e6 && pixels.columns >= 1 && pixels.rows >= 1,
           "its pixels are impossible");
+  if (j.contains("heights")) pixels.heights = stamp_from(j.at("heights"));
   return pixels;
 }
 

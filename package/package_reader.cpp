@@ -93,6 +93,7 @@ struct PackageReader::Impl {
   std::vector<OpenBlock> blocks;
   OpenOnDemand<CrownsFile> open_crowns;
   OpenOnDemand<FarTerrainFile> open_far_terrain;
+  OpenOnDemand<PixelHeightsFile> open_heights;
   std::mutex held_mutex;
   LruCache held;
 
@@ -185,11 +186,17 @@ struct PackageReader::Impl {
     return manifest.far_terrain ? open_far_terrain.open(*folder, manifest, package::far_terrain_file).mesh() : MeshView{};
   }
 
+  const PixelHeightsFile* pixel_heights() {
+    if (memory || !manifest.heights()) return nullptr;
+    return &open_heights.open(*folder, manifest, package::heights_file);
+  }
+
   void require_unchanged() const {
     if (memory) return;
     farlod::require_unchanged(folder->file(package::manifest_file), manifest_identity);
     open_crowns.require_unchanged(*folder, package::crowns_file);
     open_far_terrain.require_unchanged(*folder, package::far_terrain_file);
+    open_heights.require_unchanged(*folder, package::heights_file);
     for (std::size_t n = 0; n < blocks.size(); ++n) {
       if (blocks[n].has_tiles) farlod::require_unchanged(file_of(n, package::tiles_file), blocks[n].tiles_identity);
       if (blocks[n].has_far_map) farlod::require_unchanged(file_of(n, package::far_map_file), blocks[n].far_map_identity);
@@ -280,6 +287,8 @@ const CrownsFile& PackageReader::crowns() const {
 }
 
 MeshView PackageReader::far_terrain() const { return impl_->far_terrain(); }
+
+const PixelHeightsFile* PackageReader::pixel_heights() const { return impl_->pixel_heights(); }
 
 std::span<const Crown> PackageReader::crowns_of(Cell cell) const {
   FARLOD_EXPECTS(grid().cells.contains(cell));

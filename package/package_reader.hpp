@@ -23,6 +23,7 @@
 #include "package/far_terrain.hpp"
 #include "package/manifest.hpp"
 #include "package/package_folder.hpp"
+#include "package/pixel_heights.hpp"
 
 namespace farlod {
 
@@ -103,6 +104,10 @@ class PackageReader {
   /// The ground beyond the grid, in the frame of FarTerrain; empty where none is known. The file is opened when it is first asked
   /// for.
   [[nodiscard]] MeshView far_terrain() const;
+
+  /// The surface of the raster that the city is, where the package knows it by pixels; null elsewhere. The file is opened when it
+  /// is first asked for.
+  [[nodiscard]] const PixelHeightsFile* pixel_heights() const;
 
   /// Compares the manifest and all files that were opened with what they were then: mapped memory is what a file is now, so that
   /// what was checked once may have changed. Throws PackageDamaged. Nothing of a package in memory.

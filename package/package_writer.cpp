@@ -29,7 +29,7 @@ constexpr const char* replaced_ending = ".replaced-";
 /// Whether a path within a package's folder is that of something that packages consist of, in any version.
 bool is_of_packages(const fs::path& within) {
   static const std::regex known(
-      R"((manifest\.json|crowns\.bin|sources\.bin|far_terrain\.bin|blocks|blocks/-?[0-9]+_-?[0-9]+(_[0-9]+)?(/(tiles\.bin|far\.exr))?)(\.part)?)");
+      R"((manifest\.json|crowns\.bin|sources\.bin|far_terrain\.bin|heights\.bin|blocks|blocks/-?[0-9]+_-?[0-9]+(_[0-9]+)?(/(tiles\.bin|far\.exr))?)(\.part)?)");
   return std::regex_match(within.generic_string(), known);
 }
 

@@ -3,6 +3,9 @@
 #include "pipeline/own_pixels.hpp"
 
 #include <cmath>
+#include <limits>
+
+#include "tiles/pixel_steps.hpp"
 
 namespace farlod::pipeline {
 
@@ -18,6 +21,22 @@ std::optional<package::SurfacePixels> own_pixels_of(const ReadCity& city) {
                                 step_m,
                                 static_cast<std::uint32_t>(raster->columns),
                                 static_cast<std::uint32_t>(raster->rows)};
+}
+
+PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m) {
+  const tiles::PixelSteps steps(raster);
+  PixelHeights heights;
+  heights.height_m.reserve(raster.height_m.size());
+  heights.joined.reserve(raster.height_m.size());
+  for (std::size_t row = 0, n = 0; row < raster.rows; ++row)
+    for (std::size_t column = 0; column < raster.columns; ++column, ++n) {
+      const auto& height_m = raster.height_m[n];
+      heights.height_m.push_back(height_m ? static_cast<float>(*height_m - height_origin_m)
+                                          : std::numeric_limits<float>::quiet_NaN());
+      heights.joined.push_back(static_cast<std::uint8_t>((steps.joins_east(column, row) ? JoinedPixels::east : 0) |
+                                                         (steps.joins_north(column, row) ? JoinedPixels::north : 0)));
+    }
+  return heights;
 }
 
 }  // namespace farlod::pipeline

@@ -4,12 +4,16 @@
 
 #include <optional>
 
+#include "city/city_model.hpp"
 #include "package/manifest.hpp"
+#include "package/pixel_heights.hpp"
 #include "pipeline/city_reading.hpp"
 
 namespace farlod::pipeline {
 
 /// The pixels of a city that is a raster, which was read as it is; none of other cities, nor where they are no squares.
 [[nodiscard]] std::optional<package::SurfacePixels> own_pixels_of(const ReadCity& city);
+/// The surface that these pixels make.
+[[nodiscard]] PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m);
 
 }  // namespace farlod::pipeline

@@ -160,6 +160,7 @@ class Packing {
     package::Manifest& m = record_.result.manifest;
     m.far_terrain = write_far_terrain(folder, tiles.far_terrain);
     m.sources = write_sources(folder, std::exchange(tiles.sources, {}), sources_);
+    if (heights_) m.pixels->heights = write_pixel_heights(folder, *m.pixels, *std::exchange(heights_, {}));
     if (crowns) timed("crowns", [&] { m.canopy = write_canopy(folder, *crowns); });
   }
 
@@ -241,6 +242,8 @@ class Packing {
     FarTerrain far_terrain;
     const tiles::OnGround on_ground = [&](const tiles::Ground& ground, double height_origin_m) {
       far_terrain = far_terrain_around(place, city.terrain_files, city.far_terrain_files, ground, height_origin_m);
+      if (record_.result.manifest.pixels && city.ground.terrain->covers_pixels)
+        heights_ = heights_of(*city.ground.terrain, height_origin_m);
       if (!trees.any()) return;
       tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
       crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
@@ -343,6 +346,7 @@ class Packing {
   PackageOrigin origin_;
   CityRecord record_;
   std::vector<std::optional<SourceOfPackage>> sources_;
+  std::optional<PixelHeights> heights_;  ///< of a city that is a raster, until they are written
   std::vector<std::pair<std::string, double>> seconds_;
 };
 

@@ -251,6 +251,7 @@ std::uint64_t bytes_of(const fs::path& package, const package::Manifest& manifes
   if (manifest.canopy) bytes += manifest.canopy->stamp.bytes;
   if (manifest.sources) bytes += manifest.sources->bytes;
   if (manifest.far_terrain) bytes += manifest.far_terrain->bytes;
+  if (manifest.heights()) bytes += manifest.heights()->bytes;
   return bytes;
 }
 

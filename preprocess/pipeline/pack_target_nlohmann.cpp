@@ -42,6 +42,11 @@ std::optional<package::FileStamp> stamp_from(const Json& j) {
   return j.is_null() ? std::nullopt : std::optional(package::FileStamp{j.at(0), j.at(1)});
 }
 
+Json json_of(const package::SurfacePixels& p) {
+  return {p.north_west_m.x, p.north_west_m.y, p.step_m, p.columns, p.rows, json_of(p.heights)};
+}
+package::SurfacePixels pixels_from(const Json& j) { return {{j.at(0), j.at(1)}, j.at(2), j.at(3), j.at(4), stamp_from(j.at(5))}; }
+
 Json json_of(const package::Manifest& m) {
   Json inputs = Json::array();
   for (const package::InputFile& i : m.inputs) inputs.push_back({i.name, i.stamp.bytes, i.stamp.xxh3});
@@ -57,7 +62,8 @@ Json json_of(const package::Manifest& m) {
           {"problems", m.problem_counts},
           {"canopy", m.canopy ? json_of(*m.canopy) : Json()},
           {"sources", json_of(m.sources)},
-          {"far_terrain", json_of(m.far_terrain)}};
+          {"far_terrain", json_of(m.far_terrain)},
+          {"pixels", m.pixels ? json_of(*m.pixels) : Json()}};
 }
 package::Manifest manifest_from(const Json& j) {
   package::Manifest m;
@@ -80,6 +86,7 @@ package::Manifest manifest_from(const Json& j) {
   if (const Json& canopy = j.at("canopy"); !canopy.is_null()) m.canopy = canopy_from(canopy);
   m.sources = stamp_from(j.at("sources"));
   m.far_terrain = stamp_from(j.at("far_terrain"));
+  if (const Json& pixels = j.at("pixels"); !pixels.is_null()) m.pixels = pixels_from(pixels);
   return m;
 }
 

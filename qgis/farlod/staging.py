@@ -15,7 +15,7 @@ from types import TracebackType
 
 # What a package consists of: docs/package_format.md
 MANIFEST, BLOCKS = "manifest.json", "blocks"
-PARTS = (MANIFEST, BLOCKS, "crowns.bin", "far_terrain.bin", "sources.bin")
+PARTS = (MANIFEST, BLOCKS, "crowns.bin", "far_terrain.bin", "heights.bin", "sources.bin")
 
 
 class OutputRefused(Exception):

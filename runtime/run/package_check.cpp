@@ -28,6 +28,7 @@ class BytesRead {
     if (manifest.canopy) all_ += manifest.canopy->stamp.bytes;
     if (manifest.sources) all_ += manifest.sources->bytes;
     if (manifest.far_terrain) all_ += manifest.far_terrain->bytes;
+    if (manifest.heights()) all_ += manifest.heights()->bytes;
   }
   void add(std::uint64_t bytes) {
     throw_if_cancelled(run_.stop);
@@ -105,6 +106,8 @@ void check_files_of_city(const PackageContents& contents, BytesRead& read, Packa
       package::sources_file, m.sources, [&] { (void)SourcesFile(folder, m); }, read, check);
   check_file(
       package::far_terrain_file, m.far_terrain, [&] { (void)FarTerrainFile(folder, m); }, read, check);
+  check_file(
+      package::heights_file, m.heights(), [&] { (void)PixelHeightsFile(folder, m); }, read, check);
 }
 
 /// The blocks together; what can be said of the package as a whole comes last.

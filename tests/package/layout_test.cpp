@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "package/crown.hpp"
+#include "package/pixel_heights.hpp"
 #include "package/sources_layout.hpp"
 
 // Another reader is written from docs/package_format.md. Where the document and the header differ, the header wins, and this test
@@ -200,6 +201,19 @@ TEST(Layout, SourcesAreDocumented) {
   EXPECT_NE(chapter("SourcesHeader").find("| 8 | 4 | `version` | u32 | " + std::to_string(sources_version) + " |"),
             std::string::npos);
   EXPECT_NE(chapter("Versions").find("* **" + std::to_string(format_version) + "** may have [sources.bin]"), std::string::npos);
+}
+
+TEST(Layout, HeightsAreDocumented) {
+  EXPECT_DOCUMENTED(HeightsHeader, magic);
+  EXPECT_DOCUMENTED(HeightsHeader, version);
+  EXPECT_DOCUMENTED(HeightsHeader, columns);
+  EXPECT_DOCUMENTED(HeightsHeader, rows);
+  EXPECT_DOCUMENTED(HeightsHeader, reserved);
+  EXPECT_DOCUMENTED(HeightsHeader, file_bytes);
+  EXPECT_NE(chapter("HeightsHeader").find("| 8 | 4 | `version` | u32 | " + std::to_string(heights_version) + " |"),
+            std::string::npos);
+  for (const char* key : {"`pixels.heights.bytes`", "`pixels.heights.xxh3`"})
+    EXPECT_NE(chapter("manifest.json").find(key), std::string::npos) << key;
 }
 
 TEST(Layout, VersionAndChannelsAreDocumented) {

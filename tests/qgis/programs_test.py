@@ -241,7 +241,7 @@ class WhereProgramsWrite(InTemporaryFolder):
         staging.require_room_for_package(package, overwrite=True)
         with self.assertRaisesRegex(staging.OutputRefused, "exists already"):
             staging.require_room_for_package(package, overwrite=False)
-        whole = self.package("whole.farlod", "manifest.json", "crowns.bin", "far_terrain.bin", "sources.bin")
+        whole = self.package("whole.farlod", "manifest.json", "crowns.bin", "far_terrain.bin", "heights.bin", "sources.bin")
         staging.require_room_for_package(whole, overwrite=True)
         with self.assertRaisesRegex(staging.OutputRefused, "holds letter.txt, which is not part of a package"):
             staging.require_room_for_package(self.package("home", "letter.txt"), overwrite=True)
