@@ -33,9 +33,18 @@ struct CellGeometry {
       : far(e.package.far_horizon(cell.cell)),
         silhouettes(cell_silhouettes(e.package, cell.cell, far, bounding_box(cell.receivers))),
         overhangs(e.package, cell.cell, is_small(e.package) ? e.city.get() : nullptr) {}
+  CellGeometry(FarHorizon f, CellSilhouettes s, OverhangGeometry o)
+      : far(std::move(f)), silhouettes(std::move(s)), overhangs(std::move(o)) {}
   FarHorizon far;
   CellSilhouettes silhouettes;
   OverhangGeometry overhangs;
+
+  /// Nothing: horizons are those of pixels.
+  static CellGeometry of_pixels(const Evaluation& e, Cell cell) {
+    const ReceiverPatches one_patch(e.package.grid().cell_edge_m, 1, {0.0F});
+    return {FarHorizon{one_patch, AzimuthBins{1}, {0.0F}, {0.0F}, {0.0F}, {0.0F}, {}}, CellSilhouettes(),
+            OverhangGeometry(e.package, cell)};
+  }
 
   /// A small city is indexed once for all cells; of a large one, each cell indexes what it needs.
   static bool is_small(const PackageReader& package) { return package.manifest().triangles <= most_triangles_indexed_whole; }
@@ -56,7 +65,13 @@ class MethodWithHorizons : public SkyMethod {
   /// Draws horizons, and tells `on_packet(answer, numbers)` of each packet, whose receivers have these numbers in the cell: it
   /// stores svf. What is asked for besides is stored afterwards.
   template <class OnPacket>
-  void draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, const OnPacket& on_packet) const;
+  void draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, const OnPacket& on_packet) const {
+    draw(geometry, nullptr, packet_order(cell.receivers, evaluation_.stop), cell, answers, on_packet);
+  }
+  /// The same for the packets of an order, whose horizons are those of pixels unless these are null.
+  template <class OnPacket>
+  void draw(CellGeometry& geometry, PixelHorizon* pixels, const PacketOrder& order, const CellReceivers& cell,
+            const SkyAnswers& answers, const OnPacket& on_packet) const;
 
   const Evaluation& evaluation_;
 
@@ -85,30 +100,29 @@ class MethodWithHorizons : public SkyMethod {
 };
 
 template <class OnPacket>
-void MethodWithHorizons::draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers,
-                              const OnPacket& on_packet) const {
+void MethodWithHorizons::draw(CellGeometry& geometry, PixelHorizon* pixels, const PacketOrder& order, const CellReceivers& cell,
+                              const SkyAnswers& answers, const OnPacket& on_packet) const {
   const Evaluation& e = evaluation_;
   HorizonEngine engine(e.further.azimuths(), e.settings.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        gap_settings());
+  if (pixels != nullptr) engine.see(*pixels);
   // Where crowns are counted above the sky, half of the error is left to them
   const double share = e.settings.further.svf_total ? 0.5 : 1.0;
   if (e.settings.allowed_error) engine.keep({share * *e.settings.allowed_error, *e.city, cell.cell, e.stop});
   FurtherAnswers further(e.further, cell, answers);
   begin_further(further, engine, geometry.far);
   std::vector<PacketAnswer> of_packets;
-  for_each_group(cell.receivers, packet_order(cell.receivers, e.stop),
-                 [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
-                   throw_if_cancelled(e.stop);
-                   of_packets.resize(packets.size());
-                   e.wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
-                                           : engine.evaluate(packets, of_packets);
-                   std::span<const std::uint32_t> left = numbers;
-                   for (std::size_t n = 0; n < packets.size(); ++n) {
-                     on_packet(of_packets[n], left.first(packets[n].count));
-                     left = left.subspan(packets[n].count);
-                   }
-                   if (!e.further.empty()) further.store(packets, numbers, of_packets);
-                 });
+  for_each_group(cell.receivers, order, [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+    throw_if_cancelled(e.stop);
+    of_packets.resize(packets.size());
+    e.wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets) : engine.evaluate(packets, of_packets);
+    std::span<const std::uint32_t> left = numbers;
+    for (std::size_t n = 0; n < packets.size(); ++n) {
+      on_packet(of_packets[n], left.first(packets[n].count));
+      left = left.subspan(packets[n].count);
+    }
+    if (!e.further.empty()) further.store(packets, numbers, of_packets);
+  });
   e.counter->add({0, further.retraced_rays()}, answers);
 }
 
@@ -118,19 +132,43 @@ class HorizonMethod final : public MethodWithHorizons {
       : MethodWithHorizons(evaluation), rays_are_allowed_(rays_are_allowed) {}
 
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
+    const PixelCity* const pixels = evaluation_.pixels(answers);
+    if (pixels == nullptr) return evaluate_by_edges(cell, answers);
+    const CellReceivers others = evaluate_by_pixels(*pixels, cell, answers);
+    if (!others.receivers.empty()) evaluate_by_edges(others, answers);
+  }
+
+ private:
+  void evaluate_by_edges(const CellReceivers& cell, const SkyAnswers& answers) const {
     const auto start = EvaluationCounter::Clock::now();
     require_far_map(cell.cell);
     CellGeometry geometry(evaluation_, cell);
     const auto scene_ready = EvaluationCounter::Clock::now();
     draw(geometry, cell, answers, [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
       if (packet.by_gap_rays != 0) require_rays_allowed(cell.cell);
-      for (std::size_t l = 0; l < numbers.size(); ++l) answers.store(cell.receivers[numbers[l]].index, packet.svf[l]);
-      evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.decided_wedges}, answers);
+      store(packet, numbers, cell, answers);
     });
     evaluation_.counter->add_times(start, scene_ready);
   }
-
- private:
+  /// Answers the receivers at the centres of pixels, and returns the others.
+  [[nodiscard]] CellReceivers evaluate_by_pixels(const PixelCity& city, const CellReceivers& cell,
+                                                 const SkyAnswers& answers) const {
+    const auto start = EvaluationCounter::Clock::now();
+    PixelHorizon pixels(city, cell.cell);
+    const ReceiversOnPixels found = pixels.packets_of(cell.receivers);
+    CellGeometry geometry = CellGeometry::of_pixels(evaluation_, cell.cell);
+    draw(geometry, &pixels, found.on_pixels, cell, answers,
+         [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) { store(packet, numbers, cell, answers); });
+    evaluation_.counter->add_times(start, start);
+    CellReceivers others{cell.cell, {}};
+    for (const std::uint32_t n : found.others) others.receivers.push_back(cell.receivers[n]);
+    return others;
+  }
+  void store(const PacketAnswer& packet, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
+             const SkyAnswers& answers) const {
+    for (std::size_t l = 0; l < numbers.size(); ++l) answers.store(cell.receivers[numbers[l]].index, packet.svf[l]);
+    evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.decided_wedges}, answers);
+  }
   void require_far_map(Cell cell) const {
     if (far_map_of(evaluation_.package, cell) != FarMapOfCell::missing) return;
     throw PackageUnusable("The engine horizon needs a far map, and cell " + text_of(cell) +

@@ -64,6 +64,34 @@ Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_t
                  !p.manifest().far_map.is_box());
 }
 
+namespace {
+
+/// With fewer triangles than that for each pixel, edges are drawn sooner than rays march over pixels: blocks on level ground have
+/// 0.2, natural relief 2.
+constexpr double least_triangles_per_pixel = 0.5;
+/// With more walls than that for each pixel, edges tell better where horizons jump, and are not slower: surveys of towns have
+/// 0.1.
+constexpr double most_walls_per_pixel = 0.02;
+
+bool may_march_over_pixels(const package::Manifest& m) {
+  return m.heights() && !m.far_terrain && std::max(m.pixels->columns, m.pixels->rows) <= PixelField::most_along &&
+         static_cast<double>(m.triangles) >= least_triangles_per_pixel * static_cast<double>(m.pixels->columns) * m.pixels->rows;
+}
+
+}  // namespace
+
+const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
+  if (wants_bounds(answers) || further.needs_near_sky() || !may_march_over_pixels(package.manifest())) return nullptr;
+  std::call_once(pixels_->once, [this] {
+    const PixelHeightsFile* const file = package.pixel_heights();
+    // A package in memory has none
+    if (file == nullptr || walls_per_pixel(*package.manifest().pixels, file->joined()) > most_walls_per_pixel) return;
+    pixels_->city.emplace(package.manifest(), file->height_m(), file->joined(), further.azimuths());
+    file->let_go();
+  });
+  return pixels_->city ? &*pixels_->city : nullptr;
+}
+
 SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& settings, const std::stop_token& stop)
     : SkyEvaluator(
           std::make_unique<Evaluation>(package, settings, stop, std::make_shared<const WholeCityOnDemand>(package, stop))) {}

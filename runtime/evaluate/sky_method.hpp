@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -13,6 +15,7 @@
 #include "evaluate/sky_answers.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/sky_parts.hpp"
+#include "horizon/pixel_horizon.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 #include "scene/ray_scenes.hpp"
@@ -46,6 +49,9 @@ struct Evaluation {
   SkyDirections directions;
   FurtherQuantities further;  ///< and the azimuths of all horizons
   City city;
+  /// The pixels that the city is, where horizons may be found by marching over them: all that is asked for has no bounds, and
+  /// nothing lies beyond the raster. Null elsewhere. Thread-safe.
+  [[nodiscard]] const PixelCity* pixels(const SkyAnswers& answers) const;
   std::unique_ptr<EvaluationCounter> counter = std::make_unique<EvaluationCounter>();
 
   /// Whether bounds of the true values are asked for.
@@ -53,6 +59,13 @@ struct Evaluation {
     return !settings.bounds_of_same_rays &&
            (!answers.low.empty() || settings.allowed_error.has_value() || settings.further.svf_total_bounds);
   }
+
+ private:
+  struct PixelsOnDemand {
+    std::once_flag once;
+    std::optional<PixelCity> city;
+  };
+  std::unique_ptr<PixelsOnDemand> pixels_ = std::make_unique<PixelsOnDemand>();
 };
 
 /// A way to answer the receivers of a cell. Thread-safe.

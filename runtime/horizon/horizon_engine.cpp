@@ -52,10 +52,12 @@ template <class Begin>
 void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin) {
   while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_, PacketHorizon::Edges::tracked);
   const std::span horizons = std::span(grounded_).first(packets.size());
-  for (std::size_t n = 0; n < packets.size(); ++n) {
-    horizons[n].clear();
-    begin(packets[n], horizons[n]);
+  for (PacketHorizon& horizon : horizons) horizon.clear();
+  if (pixels_ != nullptr) {
+    pixels_->draw(packets, horizons);
+    return;
   }
+  for (std::size_t n = 0; n < packets.size(); ++n) begin(packets[n], horizons[n]);
   group_.raise(silhouettes_.grounded, packets, horizons);
   // What the grounded horizons hide is neither above an upper border nor in a gap
   const auto keep = [&](const OverhangEdges& all, OverhangEdges& in_sight) {
@@ -79,7 +81,7 @@ void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<
 }
 
 void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
-  FARLOD_EXPECTS(answers.size() == packets.size());
+  FARLOD_EXPECTS(answers.size() == packets.size() && pixels_ == nullptr);
   draw_grounded(packets, [](const ReceiverPacket&, PacketHorizon&) {});
   certain().begin(packets, std::span(grounded_).first(packets.size()));
   for (std::size_t n = 0; n < packets.size(); ++n) {
@@ -90,6 +92,7 @@ void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets
 }
 
 void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answer) {
+  if (pixels_ != nullptr) return evaluate(receivers, Overhead{}, answer);
   const Overhead overhead = recesses_.overhead_of(receivers, overhangs_.receivers_below(receivers));
   const auto begin = [this](const ReceiverPacket& packet, PacketHorizon& horizon) {
     residual_.raise_to_estimate(packet, horizon);

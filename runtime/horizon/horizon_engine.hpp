@@ -18,6 +18,7 @@
 #include "horizon/horizon_jumps.hpp"
 #include "horizon/overhangs.hpp"
 #include "horizon/packet_horizon.hpp"
+#include "horizon/pixel_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/recesses.hpp"
 #include "horizon/residual_horizon.hpp"
@@ -64,6 +65,9 @@ class HorizonEngine {
     allowed_error_ = static_cast<float>(allowed.error);
     certain().keep(allowed);
   }
+  /// From now on, grounded horizons are those of a city that is nothing but pixels, of packets that it has made. Such horizons
+  /// have no bounds.
+  void see(PixelHorizon& pixels) { pixels_ = &pixels; }
   /// From now on, calls `on_profile(n, profile)` for each packet when its answer is known, with its number in the call, and what
   /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Bounds do not change it. Only
   /// with SkyWeight::cosine, and jumps at the ends of edges.
@@ -118,6 +122,7 @@ class HorizonEngine {
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
   JumpPlaces jump_places_;
+  PixelHorizon* pixels_ = nullptr;
   float allowed_error_ = 1.0F;
   std::optional<SkyProfile> profile_;  ///< if somebody wants to know
   OnProfile on_profile_;

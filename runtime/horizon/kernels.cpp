@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "horizon/pixel_march.hpp"
 #include "horizon/wedge_kernels.hpp"
 
 namespace farlod {
@@ -15,6 +16,7 @@ namespace farlod {
   extern const SkyKernels sky_kernels;            \
   extern const WedgeEndKernels wedge_end_kernels; \
   extern const WedgeSkyKernels wedge_sky_kernels; \
+  extern const PixelKernels pixel_kernels;        \
   }
 FARLOD_DECLARE_TARGET(baseline)
 #ifdef FARLOD_X86_TARGETS
@@ -38,13 +40,14 @@ std::vector<KernelTarget> find_runnable_kernels() {
   std::vector<KernelTarget> targets;
 #ifdef FARLOD_X86_TARGETS
   if (runs_avx512())
-    targets.push_back(
-        {"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::wedge_end_kernels, &avx512::wedge_sky_kernels});
+    targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::wedge_end_kernels,
+                       &avx512::wedge_sky_kernels, &avx512::pixel_kernels});
   if (runs_avx2())
-    targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::wedge_end_kernels, &avx2::wedge_sky_kernels});
+    targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::wedge_end_kernels, &avx2::wedge_sky_kernels,
+                       &avx2::pixel_kernels});
 #endif
-  targets.push_back(
-      {"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels});
+  targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::wedge_end_kernels,
+                     &baseline::wedge_sky_kernels, &baseline::pixel_kernels});
   return targets;
 }
 
@@ -72,6 +75,11 @@ const WedgeEndKernels& wedge_end_kernels() {
 
 const WedgeSkyKernels& wedge_sky_kernels() {
   static const WedgeSkyKernels& fastest = *runnable_kernels().front().wedge_sky;
+  return fastest;
+}
+
+const PixelKernels& pixel_kernels() {
+  static const PixelKernels& fastest = *runnable_kernels().front().pixel;
   return fastest;
 }
 

@@ -126,6 +126,7 @@ struct SkyKernels {
 
 struct WedgeEndKernels;
 struct WedgeSkyKernels;
+struct PixelKernels;
 
 /// All kernels, compiled for one target.
 struct KernelTarget {
@@ -134,6 +135,7 @@ struct KernelTarget {
   const SkyKernels* sky;
   const WedgeEndKernels* wedge_end;
   const WedgeSkyKernels* wedge_sky;
+  const PixelKernels* pixel;
 };
 
 /// The targets that this processor can run, the fastest first; the last one is `baseline`, which any can.
@@ -144,5 +146,6 @@ struct KernelTarget {
 [[nodiscard]] const SkyKernels& sky_kernels();
 [[nodiscard]] const WedgeEndKernels& wedge_end_kernels();
 [[nodiscard]] const WedgeSkyKernels& wedge_sky_kernels();
+[[nodiscard]] const PixelKernels& pixel_kernels();
 
 }  // namespace farlod

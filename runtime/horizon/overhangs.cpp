@@ -55,6 +55,8 @@ bool is_upright(const OverhangGeometry::TriangleCorners& t) {
 
 OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, const WholeCityOnDemand* city)
     : package_(package), cell_(cell), city_(city) {
+  // A surface of pixels has one height at each place
+  if (package.manifest().heights()) return;
   // Buildings that are cut at the borders of cells are above their own cell alone
   const bool is_cut = package.manifest().assign != "whole";
   constexpr std::int32_t reach = TrianglesOfCell::reach_of_whole_buildings;

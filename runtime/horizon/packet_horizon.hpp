@@ -86,6 +86,8 @@ class PacketHorizon {
                                                     std::span<SkyJump> room) const;
   /// slopes[azimuth][receiver], as kernels.hpp has them.
   [[nodiscard]] const float* slopes() const { return data(); }
+  /// To draw them otherwise than by edges.
+  [[nodiscard]] float* drawn_slopes() { return data(); }
   [[nodiscard]] const Row& row(std::size_t azimuth) const { return slopes_[azimuth]; }
   /// A bit for each receiver whose horizon is higher than its other one, at some azimuth.
   [[nodiscard]] std::uint32_t exceeds(const PacketHorizon& other) const;

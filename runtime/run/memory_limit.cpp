@@ -35,6 +35,7 @@ constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // Horizon
 constexpr double bounds_azimuth_bytes = 500 + 15 * 64;                // CertainSky
 /// What further quantities add: profiles of a group of packets, and rows that are made of them.
 constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
+constexpr double pixel_bytes = 4.5, path_bytes = 6000, path_step_bytes = 4;
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
@@ -69,6 +70,14 @@ double bytes_of_samples(const package::Manifest& manifest, const ResolvedSetting
   const double of_thread = of_profiles + (by_horizons ? of_azimuth * static_cast<double>(sky.azimuths) : 0.0) +
                            (by_ray_horizons ? ray_azimuth_bytes * static_cast<double>(sky.rays) : 0.0);
   return static_cast<double>(settings.threads) * of_thread + bytes_of_directions(sky.rays, settings.threads);
+}
+
+/// PixelCity: heights, of squares of them the highest, and the paths of each azimuth.
+double bytes_of_pixels(const package::Manifest& manifest, const ResolvedSettings& settings) {
+  if (!manifest.heights()) return 0.0;
+  const double columns = manifest.pixels->columns, rows = manifest.pixels->rows;
+  return pixel_bytes * columns * rows +
+         static_cast<double>(settings.sky.azimuths) * (path_bytes + path_step_bytes * (columns + rows));
 }
 
 double crowns_of(const package::Manifest& manifest) { return static_cast<double>(manifest.canopy->crowns()); }
@@ -135,7 +144,7 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   const double of_blocks =
       static_cast<double>(bytes_of_blocks_at_work(manifest)) + (has_crowns ? bytes_of_crowns_at_work(manifest) : 0.0);
   const double bytes = program_bytes + threads * of_thread + needs.results + static_cast<double>(settings.run.caller_bytes) +
-                       in_flight + bytes_of_samples(manifest, settings) + of_blocks;
+                       in_flight + bytes_of_samples(manifest, settings) + bytes_of_pixels(manifest, settings) + of_blocks;
   require_below_limit(bytes, settings.run, "this run",
                       "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
   if (!needs.whole_city && !traces_whole_city(settings)) return bytes;

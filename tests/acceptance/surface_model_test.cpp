@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/oracles.hpp"
@@ -146,6 +148,86 @@ TEST_F(SurfaceModel, ABoxLeavesThoseOfItsPixelsThatItMeets) {
   EXPECT_EQ(part.north_west.y, town_middle.y + 30.125);
   EXPECT_NE(folder.run("farlod-svf a.farlod -o none.tif --bbox 1,1,5,5").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path("none.tif")));
+}
+
+/// A survey of hills as it comes from a scanner, with some huts: no two pixels have the same height.
+double survey_m(Point2d p) {
+  const double noise_m = 0.03 * (std::sin(12.9898 * p.x + 78.233 * p.y) + std::sin(93.17 * p.x - 41.3 * p.y));
+  const bool is_hut = std::fmod(std::abs(p.x) + 2.0, 20.0) > 17.0 && std::fmod(std::abs(p.y) + 2.0, 16.0) > 13.0;
+  return floor_m + 4.0 * std::sin(0.3 * p.x) * std::cos(0.2 * p.y) + noise_m + (is_hut ? 5.0 : 0.0);
+}
+
+class Survey : public SurfaceModel {
+ protected:
+  void SetUp() override { pack_heights(survey_m); }
+  [[nodiscard]] RasterFile map(const std::string& arguments) const {
+    folder.must("farlod-svf a.farlod -o map.tif --height 1.5 " + arguments);
+    return read_raster(folder.path("map.tif"));
+  }
+  /// A square around the middle.
+  [[nodiscard]] static std::string box(double half_edge_m) {
+    std::ostringstream text;
+    text << std::fixed << " --bbox " << town_middle.x - half_edge_m << ',' << town_middle.y - half_edge_m << ','
+         << town_middle.x + half_edge_m << ',' << town_middle.y + half_edge_m;
+    return text.str();
+  }
+};
+
+TEST_F(Survey, IsMarchedOverAsRaysTellIt) {
+  const RasterFile marched = map(box(5.0)), traced = map(box(5.0) + " --engine exact --rays 20000");
+  ASSERT_EQ(marched.values.size(), traced.values.size());
+  double sum = 0.0, largest = 0.0;
+  for (std::size_t n = 0; n < traced.values.size(); ++n) {
+    ASSERT_EQ(marched.values[n].has_value(), traced.values[n].has_value());
+    const double error = std::abs(*marched.values[n] - *traced.values[n]);
+    sum += error;
+    largest = std::max(largest, error);
+  }
+  EXPECT_LE(sum / static_cast<double>(traced.values.size()), 0.0005);
+  EXPECT_LE(largest, 0.004);
+}
+
+TEST_F(Survey, HorizonsOfEdgesAreThoseOfTheMarch) {
+  // Bounds are those of edges
+  const RasterFile marched = map(box(5.0));
+  folder.must("farlod-svf a.farlod -o bounded.tif --height 1.5 --bounds" + box(5.0));
+  const RasterFile low = read_raster(folder.path("bounded.tif"), 2), high = read_raster(folder.path("bounded.tif"), 3);
+  std::size_t outside = 0;
+  for (std::size_t n = 0; n < marched.values.size(); ++n)
+    outside += *marched.values[n] < *low.values[n] - 0.001 || *marched.values[n] > *high.values[n] + 0.001 ? 1 : 0;
+  EXPECT_EQ(outside, 0U);
+}
+
+TEST_F(Survey, APixelHasOneValueWhateverElseIsAsked) {
+  const RasterFile all = map(""), part = map(box(7.3));
+  for (std::size_t n = 0; n < part.values.size(); n += 7)
+    EXPECT_EQ(part.values[n].value(), all.at(part.centre_of(n)).value()) << n;
+  // As a point among others, of which most stand between centres
+  const Point2d centre = part.centre_of(part.values.size() / 2);
+  std::ostringstream points;
+  points << std::fixed << "x,y\n" << centre.x + 0.06 << ',' << centre.y << "\n" << centre.x << ',' << centre.y << '\n';
+  folder.write("points.csv", points.str());
+  folder.must("farlod-svf a.farlod -o points_svf.csv --points points.csv --height 1.5");
+  EXPECT_NEAR(CsvTable(folder.text_of("points_svf.csv")).number(1, "svf"), all.at(centre).value(), 1e-5);
+}
+
+TEST_F(Survey, OtherQuantitiesComeFromTheSameHorizons) {
+  // Seven azimuths, none of which runs through the corners of pixels, where a ray may take either side of a hut
+  const std::string command = "farlod-svf a.farlod --height 1.5 --quantity directional --horizons 7" + box(3.0) + " -o ";
+  folder.must(command + "marched.tif");
+  folder.must(command + "traced.tif --engine exact --rays 20000");
+  const std::vector<std::string> bands = band_names(folder.path("marched.tif"));
+  ASSERT_EQ(bands, band_names(folder.path("traced.tif")));
+  ASSERT_EQ(bands.size(), 12U);
+  for (std::size_t band = 1; band <= bands.size(); ++band) {
+    const RasterFile marched = read_raster(folder.path("marched.tif"), static_cast<int>(band)),
+                     traced = read_raster(folder.path("traced.tif"), static_cast<int>(band));
+    double sum = 0.0;
+    for (std::size_t n = 0; n < marched.values.size(); ++n) sum += std::abs(*marched.values[n] - *traced.values[n]);
+    // Horizons are degrees
+    const double tolerance = bands[band - 1].starts_with("horizon") ? 0.05 : 0.001;
+    EXPECT_LE(sum / static_cast<double>(marched.values.size()), tolerance) << bands[band - 1];
+  }
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/grid.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/pixel_field.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "package/manifest.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod {
+
+/// A city that is a raster, and the ways of rays over its pixels at the azimuths of a sampling. All threads share it.
+struct PixelCity {
+  PixelCity(const package::Manifest& m, std::span<const float> height_m, std::span<const std::uint8_t> joined,
+            const AzimuthSampling& azimuths);
+  const package::Manifest& manifest;
+  PixelField field;
+  PixelPaths paths;
+};
+
+/// The receivers of a cell that stand at the centres of pixels and look straight up, and the others.
+struct ReceiversOnPixels {
+  PacketOrder on_pixels;  ///< packets are above sixteen pixels in a row, or above some of them
+  std::vector<std::uint32_t> others;
+};
+
+/// Horizons of receivers of one cell at the centres of a raster's pixels: rays march over all pixels, as far as the raster
+/// reaches. docs/concepts.md, "A march over pixels".
+class PixelHorizon {
+ public:
+  /// The city must outlive it.
+  PixelHorizon(const PixelCity& city, Cell cell);
+
+  [[nodiscard]] ReceiversOnPixels packets_of(std::span<const Receiver> receivers) const;
+  /// Draws the horizons of packets that packets_of() made; of one group.
+  void draw(std::span<const ReceiverPacket> packets, std::span<PacketHorizon> horizons);
+
+ private:
+  struct Place {
+    std::int32_t column, row;
+  };
+  struct OnPixel {
+    Place place;
+    std::uint32_t number;
+  };
+  [[nodiscard]] Point2d pixels_at(Point2d p_cell) const;
+  [[nodiscard]] std::optional<Place> place_of(const Point3f& p_cell) const;
+  [[nodiscard]] static PacketOrder order_of(std::vector<OnPixel> receivers);
+  [[nodiscard]] Place place_of(const ReceiverPacket& packet, std::size_t lane) const;
+  /// A packet is a row of a block, whose slopes are drawn there.
+  void add_to_blocks(const ReceiverPacket& packet, float* slopes);
+  void copy_drawn(const ReceiverPacket& packet, std::span<const PacketHorizon::Row> drawn, float* slopes) const;
+
+  const PixelCity& city_;
+  Point2d corner_grid_;
+  PixelWindow window_;
+  // Working memory
+  std::vector<PixelBlock> blocks_;
+  std::int32_t last_row_ = 0;              ///< of the last block
+  std::vector<PacketHorizon::Row> drawn_;  ///< [packet][azimuth]
+};
+
+}  // namespace farlod

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <cstdint>
+
+#include "horizon/lanes.hpp"
+#include "horizon/pixel_march.hpp"
+
+// Compiled once for each target, which CMakeLists.txt names as FARLOD_TARGET. Everything here has internal linkage or is inlined
+// always, but for the table at the end.
+
+namespace farlod {
+namespace {
+
+constexpr std::int32_t east = 1, north = 2;  // JoinedPixels
+constexpr std::int32_t last_lane = static_cast<std::int32_t>(lane_count) - 1,
+                       last_row = static_cast<std::int32_t>(PixelBlock::rows) - 1;
+
+/// A number of pixels in 2^-32 of one: the whole ones below it, and the rest.
+struct FixedPoint {
+  FARLOD_LANES explicit FixedPoint(std::int64_t n)
+      : whole(static_cast<std::int32_t>(n >> 32)), part(static_cast<float>(n & 0xFFFFFFFF) * 0x1p-32F) {}
+  std::int32_t whole;
+  float part;
+};
+/// Half a pixel more than what a ray has gone aside half a line before the n-th.
+FARLOD_LANES std::int64_t half_before(std::int32_t n, std::int64_t per_line) {
+  return n * per_line - per_line / 2 + (std::int64_t{1} << 31);
+}
+template <class Number>
+FARLOD_LANES Number lowest_of(Number a, Number b) {
+  return b < a ? b : a;
+}
+template <class Number>
+FARLOD_LANES Number highest_of(Number a, Number b) {
+  return a < b ? b : a;
+}
+
+FARLOD_LANES float highest_from(const HighestAround& squares, std::int32_t x, std::int32_t y) {
+  const std::int32_t column = lowest_of(highest_of(x >> squares.shift, squares.first), squares.last_column),
+                     row = lowest_of(highest_of(y >> squares.shift, squares.first), squares.last_row);
+  return squares.height_m[row * squares.stride + column];
+}
+
+/// The horizons of a block at one azimuth, as far as they are drawn.
+struct Horizon {
+  Floats z_m[PixelBlock::rows], slope[PixelBlock::rows];
+  float lowest_z_m, lowest_slope = 0.0F;
+
+  FARLOD_LANES explicit Horizon(const PixelBlock& block) {
+    Floats lowest = broadcast(PixelBlock::no_receiver_m);
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
+      z_m[r] = load(block.z_m[r]);
+      // What has no receiver is not the lowest horizon, however high others are
+      slope[r] = choose(z_m[r] < broadcast(PixelBlock::no_receiver_m), broadcast(0.0F), broadcast(PixelBlock::no_receiver_m));
+      lowest = min(lowest, z_m[r]);
+    }
+    lowest_z_m = min_lane(lowest);
+  }
+  FARLOD_LANES bool may_be_raised_to(float height_m, float per_distance) const {
+    return (height_m - lowest_z_m) * per_distance > lowest_slope && is_raised_to(height_m, per_distance);
+  }
+  /// Who stands low has a high horizon: asks each receiver by itself.
+  FARLOD_LANES bool is_raised_to(float height_m, float per_distance) const {
+    std::uint32_t raised = 0;
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r)
+      raised |= bits_of((broadcast(height_m) - z_m[r]) * broadcast(per_distance) > slope[r]);
+    return raised != 0;
+  }
+  FARLOD_LANES void raise_to(std::size_t r, const Floats& height_m, float per_distance) {
+    slope[r] = max(slope[r], (height_m - z_m[r]) * broadcast(per_distance));
+  }
+  FARLOD_LANES void note_lowest() {
+    Floats lowest = slope[0];
+    for (std::size_t r = 1; r < PixelBlock::rows; ++r) lowest = min(lowest, slope[r]);
+    lowest_slope = min_lane(lowest);
+  }
+};
+
+FARLOD_LANES Floats height_at(const float* pixel, const PixelCrossing& c) {
+  return load(pixel + c.pixel) + c.share * load(pixel + c.slope);
+}
+
+FARLOD_LANES void pass_line(const PixelWindowView& window, const float* pixel, const PixelCrossing& line, Horizon& horizon) {
+  for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += window.stride)
+    horizon.raise_to(r, height_at(pixel, line), line.per_distance);
+}
+FARLOD_LANES void pass_side(const PixelWindowView& window, const float* pixel, const SideCrossing& side, Horizon& horizon) {
+  for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += window.stride)
+    horizon.raise_to(r, max(height_at(pixel, side.first), height_at(pixel, side.second)) + load(pixel + side.torn),
+                     side.first.per_distance);
+}
+
+FARLOD_LANES void march_near(const PixelWindowView& window, const PixelPath& path, const PixelBlock& block, Horizon& horizon) {
+  const float* const pixel = window.height_m + block.window_y * window.stride + block.window_x;
+  std::uint32_t crossing = 0, side = 0;
+  for (const NearSegment& segment : path.near) {
+    const float highest_m = highest_from(window.highest, block.window_x + segment.x_low, block.window_y + segment.y_low);
+    if (horizon.may_be_raised_to(highest_m, segment.per_distance)) {
+      for (; crossing < segment.crossings_end; ++crossing) pass_line(window, pixel, path.crossings[crossing], horizon);
+      for (; window.is_torn && side < segment.sides_end; ++side) pass_side(window, pixel, path.sides[side], horizon);
+      horizon.note_lowest();
+    }
+    crossing = segment.crossings_end;
+    side = segment.sides_end;
+  }
+}
+
+/// What a ray from a block meets beyond the window, line by line.
+template <bool is_torn>
+struct FarRay {
+  const PixelFieldView& field;
+  const PixelPath& path;
+  const PixelBlock& block;
+  Horizon& horizon;
+
+  FARLOD_LANES const float* pixel_at(std::int32_t x, std::int32_t y) const {
+    return field.height_m + (block.row + y) * field.stride + block.column + x;
+  }
+  FARLOD_LANES static Mask is_joined(const Floats& flagged, std::int32_t flag) {
+    return (to_bits(flagged) & flag) == broadcast(flag);
+  }
+  /// Between the centres of two pixels, at a share of the way: on the surface that joins them, or on the one that is nearer.
+  FARLOD_LANES static Floats between(const Floats& from, const Floats& to, const float* nearer, std::int32_t flag, float share) {
+    const Floats sloped = from + share * (to - from);
+    if constexpr (is_torn)
+      return choose(is_joined(from, flag), sloped, load(nearer));
+    else
+      return sloped;
+  }
+  FARLOD_LANES void pass_column(const float* pixel, float share, float per_number, Floats (&rise)[PixelBlock::rows]) const {
+    const std::ptrdiff_t nearer = share < 0.5F ? 0 : field.stride;
+    // The northern pixel of a row is the southern one of the next
+    Floats south = load(pixel);
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += field.stride) {
+      const Floats to = load(pixel + field.stride);
+      rise[r] = max(rise[r], (between(south, to, pixel + nearer, north, share) - horizon.z_m[r]) * broadcast(per_number));
+      south = to;
+    }
+  }
+  FARLOD_LANES void pass_row(const float* pixel, float share, float per_number, Floats (&rise)[PixelBlock::rows]) const {
+    const std::ptrdiff_t nearer = share < 0.5F ? 0 : 1;
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += field.stride)
+      rise[r] = max(
+          rise[r], (between(load(pixel), load(pixel + 1), pixel + nearer, east, share) - horizon.z_m[r]) * broadcast(per_number));
+  }
+  /// Raises horizons to what rises from line to line by that much.
+  FARLOD_LANES void raise(const Floats (&rise)[PixelBlock::rows], float lines_per_metre) {
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r)
+      horizon.slope[r] = max(horizon.slope[r], rise[r] * broadcast(lines_per_metre));
+  }
+  /// Over the side of two pixels, if the surface is torn there.
+  FARLOD_LANES void pass_side(const float* from, const float* to, std::int32_t flag, float per_distance) {
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r, from += field.stride, to += field.stride) {
+      const Floats a = load(from);
+      horizon.raise_to(r, choose(is_joined(a, flag), broadcast(no_height_m), max(a, load(to))), per_distance);
+    }
+  }
+
+  /// The lines between the ends of two segments.
+  FARLOD_LANES void march(const FarSegment& before, const FarSegment& segment) {
+    march_columns(before.columns_end, segment.columns_end);
+    march_rows(before.rows_end, segment.rows_end);
+    if constexpr (is_torn) march_sides(before, segment);
+  }
+  FARLOD_LANES std::int32_t x_sign() const { return path.cosine < 0.0 ? -1 : 1; }
+  FARLOD_LANES std::int32_t y_sign() const { return path.sine < 0.0 ? -1 : 1; }
+  FARLOD_LANES void march_columns(std::int32_t first, std::int32_t end) {
+    Floats rise[PixelBlock::rows]{};
+    for (std::int32_t n = first; n < end; ++n) {
+      const FixedPoint y(n * path.north_per_column);
+      pass_column(pixel_at(x_sign() * n, y.whole), y.part, field.per_number[n], rise);
+    }
+    raise(rise, path.columns_per_metre);
+  }
+  FARLOD_LANES void march_rows(std::int32_t first, std::int32_t end) {
+    Floats rise[PixelBlock::rows]{};
+    for (std::int32_t n = first; n < end; ++n) {
+      const FixedPoint x(n * path.east_per_row);
+      pass_row(pixel_at(x.whole, y_sign() * n), x.part, field.per_number[n], rise);
+    }
+    raise(rise, path.rows_per_metre);
+  }
+  FARLOD_LANES void march_sides(const FarSegment& before, const FarSegment& segment) {
+    for (std::int32_t n = before.east_sides_end; n < segment.east_sides_end; ++n) {
+      const float* const pixel = pixel_at(x_sign() < 0 ? -n : n - 1, FixedPoint(half_before(n, path.north_per_column)).whole);
+      pass_side(pixel, pixel + 1, east, path.columns_per_metre * 2.0F * field.per_number[2 * n - 1]);
+    }
+    for (std::int32_t n = before.north_sides_end; n < segment.north_sides_end; ++n) {
+      const float* const pixel = pixel_at(FixedPoint(half_before(n, path.east_per_row)).whole, y_sign() < 0 ? -n : n - 1);
+      pass_side(pixel, pixel + field.stride, north, path.rows_per_metre * 2.0F * field.per_number[2 * n - 1]);
+    }
+  }
+
+  FARLOD_LANES bool may_be_raised(const HighestAround& highest, const FarSegment& segment) const {
+    return horizon.may_be_raised_to(highest_from(highest, block.column + segment.x_low, block.row + segment.y_low),
+                                    segment.per_distance);
+  }
+  /// The number of long segments that begin above pixels, for some receiver.
+  FARLOD_LANES std::size_t long_segments() const {
+    const double in_x = (path.cosine > 0.0 ? field.columns - block.column : block.column + last_lane + 1) * path.per_cosine,
+                 in_y = (path.sine > 0.0 ? field.rows - block.row : block.row + last_row + 1) * path.per_sine;
+    const double steps = (lowest_of(in_x, in_y) - pixel_reach) * (1.0 / long_step);
+    return steps > 0.0 ? static_cast<std::size_t>(steps) + 1 : 0;
+  }
+  /// Segments are left out that are too low: first long ones, then short ones.
+  FARLOD_LANES void march() {
+    constexpr std::size_t in_long = long_step / far_step;
+    const std::size_t count = long_segments();
+    for (std::size_t l = 0; l < count; ++l) {
+      const FarSegment& all = path.long_far[l + 1];
+      if (!horizon.may_be_raised_to(field.highest_m, all.per_distance)) return;
+      if (!may_be_raised(field.long_highest, all)) continue;
+      for (std::size_t n = l * in_long; n < (l + 1) * in_long; ++n) {
+        const FarSegment& segment = path.far[n + 1];
+        if (!may_be_raised(field.highest, segment)) continue;
+        march(path.far[n], segment);
+        horizon.note_lowest();
+      }
+    }
+  }
+};
+
+template <bool is_torn>
+FARLOD_LANES void march_all(const PixelWindowView& window, const PixelFieldView& field, std::span<const PixelPath> paths,
+                            std::span<const PixelBlock> blocks) {
+  // Azimuth by azimuth, so that a path is in the processor's cache for all blocks
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    for (const PixelBlock& block : blocks) {
+      Horizon horizon(block);
+      march_near(window, paths[k], block, horizon);
+      FarRay<is_torn>{field, paths[k], block, horizon}.march();
+      for (std::size_t r = 0; r < PixelBlock::rows; ++r)
+        if (block.slopes[r] != nullptr) store(horizon.slope[r], block.slopes[r] + k * lane_count);
+    }
+}
+
+void march(const PixelWindowView& window, const PixelFieldView& field, std::span<const PixelPath> paths,
+           std::span<const PixelBlock> blocks) {
+  if (field.is_torn)
+    march_all<true>(window, field, paths, blocks);
+  else
+    march_all<false>(window, field, paths, blocks);
+}
+
+}  // namespace
+
+namespace FARLOD_TARGET {
+extern const PixelKernels pixel_kernels;
+constexpr PixelKernels pixel_kernels{.march = march};
+}  // namespace FARLOD_TARGET
+
+}  // namespace farlod
