@@ -246,7 +246,9 @@ TEST(Resume, RecordsOfCitiesComeBack) {
   ASSERT_TRUE(record);
   EXPECT_EQ(record_text(*record), *text);
   EXPECT_EQ(record->problems.size(), p.report.problems().size());
-  for (std::size_t cut = 0; cut < text->size(); cut += 97) EXPECT_FALSE(city_record_from(text->substr(0, cut))) << cut;
+  // Behind its last brace, nothing is lost. How long it is depends on how long its stages took
+  const std::size_t last = text->rfind('}');
+  for (std::size_t cut = 0; cut <= last; cut += 97) EXPECT_FALSE(city_record_from(text->substr(0, cut))) << cut;
 }
 
 TEST(ShardParts, AreEachOfOneShardAndAboutEqual) {
