@@ -67,7 +67,7 @@ Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_t
 namespace {
 
 /// With fewer triangles than that for each pixel, edges are drawn sooner than rays march over pixels: blocks on level ground have
-/// 0.2, natural relief 2.
+/// 0.2, natural relief 2. docs/decisions/0032-a-march-over-pixels.md.
 constexpr double least_triangles_per_pixel = 0.5;
 /// With more walls than that for each pixel, edges tell better where horizons jump, and are not slower: surveys of towns have
 /// 0.1.
