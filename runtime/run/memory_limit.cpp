@@ -35,8 +35,10 @@ constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // Horizon
 constexpr double bounds_azimuth_bytes = 500 + 15 * 64;                // CertainSky
 /// What further quantities add: profiles of a group of packets, and rows that are made of them.
 constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
+// PixelCity: a pixel; at each azimuth, its path near a receiver, and each pixel farther along the sides of the raster
 constexpr double pixel_bytes = 4.5, path_bytes = 6000, path_step_bytes = 4;
-constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
+constexpr double drawn_azimuth_bytes = packets_in_group * 64;  // PixelHorizon
+constexpr double ray_azimuth_bytes = 180 + 11 * 64;            // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
   return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.allowed_error.has_value() ||
@@ -72,12 +74,12 @@ double bytes_of_samples(const package::Manifest& manifest, const ResolvedSetting
   return static_cast<double>(settings.threads) * of_thread + bytes_of_directions(sky.rays, settings.threads);
 }
 
-/// PixelCity: heights, of squares of them the highest, and the paths of each azimuth.
 double bytes_of_pixels(const package::Manifest& manifest, const ResolvedSettings& settings) {
   if (!manifest.heights()) return 0.0;
   const double columns = manifest.pixels->columns, rows = manifest.pixels->rows;
-  return pixel_bytes * columns * rows +
-         static_cast<double>(settings.sky.azimuths) * (path_bytes + path_step_bytes * (columns + rows));
+  const double of_azimuth =
+      path_bytes + path_step_bytes * (columns + rows) + drawn_azimuth_bytes * static_cast<double>(settings.threads);
+  return pixel_bytes * columns * rows + static_cast<double>(settings.sky.azimuths) * of_azimuth;
 }
 
 double crowns_of(const package::Manifest& manifest) { return static_cast<double>(manifest.canopy->crowns()); }
