@@ -48,4 +48,14 @@ struct PlanHeights {
 /// Looks both up at once. Throws what ground_heights throws.
 [[nodiscard]] FARLOD_EXPORT PlanHeights plan_heights(const Package& package, const RasterPlan& plan, const RunSettings& run = {});
 
+/// Crowns above or below the pixel centres of a raster, row by row from the north: heights above sea level, NaN where there is no
+/// crown.
+struct PlanCanopy {
+  std::vector<float> bottom_m;  ///< of the lowest crown
+  std::vector<float> top_m;     ///< of the highest
+};
+
+/// Throws what ground_heights throws.
+[[nodiscard]] FARLOD_EXPORT PlanCanopy plan_canopy(const Package& package, const RasterPlan& plan, const RunSettings& run = {});
+
 }  // namespace farlod

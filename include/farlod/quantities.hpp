@@ -82,6 +82,10 @@ struct Quantities {
   /// `share_building`. Takes the rays of svfaveg.
   bool sky_shares = false;
   CanopySettings canopy = {};
+  /// What hides each of the 153 patches of the sky that SOLWEIG of UMEP knows, as bits: farlod/shadow_patches.hpp says of what, and
+  /// how to read them. Columns `shadow_1` to `shadow_7`, `vegshadow_1` …, `vbshadow_1` …. Takes rays against the whole city, with
+  /// its trees, whatever the engine and the receiver's normal.
+  bool shadow_patches = false;
 
   [[nodiscard]] FARLOD_EXPORT bool any() const;
   [[nodiscard]] FARLOD_EXPORT bool any_of_canopies() const;

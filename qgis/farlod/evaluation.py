@@ -26,12 +26,13 @@ from .algorithm import FarlodAlgorithm, Values
 from .layer_files import save_source
 from .staging import Staging
 
-QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "svf_total", "svfaveg",
-              "directional_vegetation", "shares"]
+QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "shadow_patches",
+              "svf_total", "svfaveg", "directional_vegetation", "shares"]
 QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
     "near and far geometry hide; horizon: its elevations; horizon_distance: and how far away it is; sky_patches: share seen of "
-    "each patch of the sky; sunlit: hours of sunshine, which need a day or a year; with the trees of a package svf_total (and "
+    "each patch of the sky; sunlit: hours of sunshine, which need a day or a year; shadow_patches: what hides each of the 153 of "
+    "UMEP, as bits; with the trees of a package svf_total (and "
     "svfveg), svfaveg, directional_vegetation: both of the halves of the sky as UMEP has them; and the shares of sky, "
     "vegetation and building."
 )

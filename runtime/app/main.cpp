@@ -245,8 +245,8 @@ WrittenRun evaluate(SvfOptions options) {
   const double open_s = seconds_since(start);
   options.evaluation.region = region_of_package(options, package.description());
   if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
-  if (options.format != nullptr && options.format->is_for_solweig)
-    add_for_solweig(inventory_of(package).crowns.all() > 0, options.evaluation.further);
+  if (options.format != nullptr)
+    add_for_solweig(*options.format, inventory_of(package).crowns.all() > 0, options.evaluation.further);
   ProgressLine progress("sky view factors", options.run.verbosity);
   KeptWork kept(options, package.description());
   RunSettings run = run_settings(options, progress);

@@ -149,21 +149,23 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
   add_canopy_options(app, raw);
 }
 
-void add_for_solweig(bool has_trees, Quantities& quantities) {
+void add_for_solweig(const OutputFormat& format, bool has_trees, Quantities& quantities) {
+  if (!format.is_for_solweig) return;
   quantities.directional = true;
+  quantities.shadow_patches = quantities.shadow_patches || format.is_solweig_kit;
   if (has_trees) quantities.svf_total = quantities.svfaveg = quantities.directional_vegetation = true;
 }
 
-RequestedQuantities resolved(const RawQuantities& raw, bool is_for_solweig) {
+RequestedQuantities resolved(const RawQuantities& raw, const OutputFormat* format) {
   RequestedQuantities requested;
-  if (is_for_solweig) add_for_solweig(/*has_trees=*/false, requested.further);
+  if (format != nullptr) add_for_solweig(*format, /*has_trees=*/false, requested.further);
   if (!raw.quantities.empty())
     for (const std::string& name : CLI::detail::split(raw.quantities + ',', ',')) add(name, raw, requested.further);
   if (raw.horizons > 0) requested.further.horizons = raw.horizons;
   if (raw.sky_patches > 0)
     requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;
   if (!raw.sun.empty()) requested.sunshine = period_of(raw.sun, raw.sun_step_minutes);
-  requested.further.canopy = canopy_of(raw, is_for_solweig || requested.further.any_of_canopies());
+  requested.further.canopy = canopy_of(raw, (format != nullptr && format->is_for_solweig) || requested.further.any_of_canopies());
   if (raw.sun.empty() && raw.sun_step_minutes > 0) throw CLI::ValidationError("--sun-step", "it goes with --sun");
   return requested;
 }

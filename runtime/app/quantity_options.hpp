@@ -8,6 +8,7 @@
 #include <string>
 
 #include "farlod/quantities.hpp"
+#include "results/output_format.hpp"
 
 namespace CLI {
 class App;
@@ -46,11 +47,11 @@ struct RequestedQuantities {
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw);
 
-/// What SOLWEIG reads beside the sky view factor, of a package with trees or without.
-void add_for_solweig(bool has_trees, Quantities& quantities);
+/// What SOLWEIG reads beside the sky view factor from a result of this format, if anything, of a package with trees or without.
+void add_for_solweig(const OutputFormat& format, bool has_trees, Quantities& quantities);
 
-/// With what SOLWEIG reads in any case, where the result is for it: whether the package has trees is not known yet. Throws
-/// CLI::ValidationError.
-[[nodiscard]] RequestedQuantities resolved(const RawQuantities& raw, bool is_for_solweig);
+/// With what SOLWEIG reads in any case, where the result is for it: whether the package has trees is not known yet. A result that
+/// is a city file has no format. Throws CLI::ValidationError.
+[[nodiscard]] RequestedQuantities resolved(const RawQuantities& raw, const OutputFormat* format);
 
 }  // namespace farlod

@@ -294,7 +294,7 @@ void require_accuracy(const EvaluationSettings& settings) {
 }
 
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
-  RequestedQuantities requested = resolved(raw.quantities, o.format != nullptr && o.format->is_for_solweig);
+  RequestedQuantities requested = resolved(raw.quantities, o.format);
   if (requested.further.any_weighted() && o.evaluation.weight == SkyWeight::solid_angle)
     throw CLI::ValidationError("--quantity",
                                "with --sky solid only " + words_of_unweighted() + " can be computed: leave --sky out");

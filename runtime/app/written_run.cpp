@@ -156,6 +156,15 @@ void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles&
   if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
 }
 
+/// What SOLWEIG may miss.
+void add_notes_of_kit(const Package& package, const SvfOptions& options, std::vector<std::string>& notes) {
+  if (!options.format->is_solweig_kit) return;
+  if (plan_of_surface_model(package))
+    notes.emplace_back("The city is a surface model, which knows no ground of its own: there is no dem.tif.");
+  else if (options.placing.above == HeightAbove::ground)
+    notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
+}
+
 }  // namespace
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
@@ -163,6 +172,7 @@ std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {
   WrittenRun written;
   const RasterPlan plan = plan_of(package, options, written.notes);
+  add_notes_of_kit(package, options, written.notes);
   const RasterFrame frame = frame_of(plan, options, package, run.threads);
   RasterFiles files;
   add_files(options, frame, files);

@@ -150,6 +150,7 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
     : quantities_(quantities),
       size_(columns_of(quantities).size()),
       crowns_(range_of_crowns(quantities)),
+      shadow_patches_(range_of(Quantity::shadow_patches, quantities)),
       azimuths_(sampling_for(quantities, azimuths, manifest)),
       turns_(turns_of(azimuths_, manifest)),
       halves_(azimuths_, manifest) {
@@ -265,6 +266,11 @@ void FurtherQuantities::add_horizons(const ProfiledPacket& packet, QuantityColum
 /// Profiles do not tell them: their places are left for trace_horizon_distances.
 void FurtherQuantities::add_distances(const ProfiledPacket&, QuantityColumns& columns) const {
   columns.skip(azimuth_of_horizon_.size());
+}
+
+/// Profiles do not tell them: their places are left for store_shadow_patches.
+void FurtherQuantities::add_shadow_patches(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(shadow_patches_.count);
 }
 
 void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {

@@ -83,14 +83,16 @@ class FurtherQuantities {
   [[nodiscard]] ProfileRows profile_rows() const {
     return quantities_.svf_solid ? ProfileRows::sky_and_solid_sky : ProfileRows::sky;
   }
-  /// Whether anything is made of profiles: canopies alone may be traced without them.
-  [[nodiscard]] bool needs_profiles() const { return size_ > crowns_.count; }
+  /// Whether anything is made of profiles: canopies and shadow patches alone may be traced without them.
+  [[nodiscard]] bool needs_profiles() const { return size_ > crowns_.count + shadow_patches_.count; }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
 
   /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
   [[nodiscard]] HorizonColumns horizon_columns() const;
   /// Where the values of canopies are, which take crowns beside profiles (CanopyAnswers): evaluate() leaves their places out.
   [[nodiscard]] const ColumnRange& canopy_columns() const { return crowns_; }
+  /// Where the shadow patches are, which rays find: evaluate() leaves their places out.
+  [[nodiscard]] const ColumnRange& shadow_columns() const { return shadow_patches_; }
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
@@ -106,6 +108,7 @@ class FurtherQuantities {
   void add_distances(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_shadow_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
  private:
   void divide_into_patches();
@@ -131,7 +134,7 @@ class FurtherQuantities {
 
   Quantities quantities_;
   std::size_t size_;
-  ColumnRange crowns_;
+  ColumnRange crowns_, shadow_patches_;
   AzimuthSampling azimuths_;
   std::vector<double> turns_;  ///< of each azimuth: clockwise from true north, as a share of the turn
   std::vector<std::size_t> azimuth_of_horizon_;

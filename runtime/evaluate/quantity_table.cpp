@@ -11,6 +11,7 @@
 
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/further_quantities.hpp"
+#include "farlod/shadow_patches.hpp"
 
 namespace farlod {
 namespace {
@@ -82,6 +83,16 @@ void describe_patches(const Quantities& q, Columns& columns) {
 
 void describe_sunlit(const Quantities&, Columns& columns) {
   columns.push_back({"sunlit_h", "h", "hours at which the middle of the sun is seen, were the sky clear"});
+}
+
+void describe_shadow_patches(const Quantities&, Columns& columns) {
+  const std::array<std::pair<const char*, const char*>, shadow_matrix_count> matrices{
+      {{"shadow_", "nothing solid hides"}, {"vegshadow_", "no crown hides sky in"}, {"vbshadow_", "no crown hides solid things in"}}};
+  for (const auto& [name, meaning] : matrices)
+    for (std::size_t n = 0; n < columns_of_shadow_matrix; ++n)
+      columns.push_back({name + std::to_string(n + 1), "1",
+                         "a whole number whose bits, from the least on, are 1 where " + std::string(meaning) + " patch " +
+                             std::to_string(n * patches_of_shadow_column) + " and the following ones of the 153 of UMEP"});
 }
 
 void describe_total(const Quantities& q, Columns& columns) {
@@ -199,6 +210,12 @@ constexpr auto table = std::to_array<QuantityRow>({
          },
      .describe = describe_sunlit,
      .add = &FurtherQuantities::add_sunlit},
+    {.quantity = Quantity::shadow_patches,
+     .word = {.word = "shadow_patches", .meaning = "what hides each of UMEP's 153, as bits", .is_weighted = false},
+     .is_asked = is_flagged<&Quantities::shadow_patches>,
+     .ask = set_flag<&Quantities::shadow_patches>,
+     .describe = describe_shadow_patches,
+     .add = &FurtherQuantities::add_shadow_patches},
     {.quantity = Quantity::svf_total,
      .word = {.word = "svf_total", .meaning = "and svfveg", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::svf_total>,

@@ -9,6 +9,7 @@
 #include "base/expects.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/sky_method.hpp"
+#include "evaluate/traced_patches.hpp"
 #include "scene/canopy_around.hpp"
 #include "scene/ray_scenes.hpp"
 
@@ -126,6 +127,7 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers
   throw_if_cancelled(evaluation_->stop);
   method_for(cell.cell).evaluate(cell, answers);
   if (settings().further.horizon_distances) find_horizon_distances(cell, answers);
+  if (settings().further.shadow_patches) find_shadow_patches(cell, answers);
 }
 
 void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const {
@@ -139,6 +141,17 @@ void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAn
     trace_horizon_distances(city.occluder(), city.scene_from_cell(r.p_cell, cell.cell), wanted,
                             answers.further.subspan(r.index * columns, columns));
   }
+  evaluation_->counter->add_times(start, scene_ready);
+}
+
+void SkyEvaluator::find_shadow_patches(const CellReceivers& cell, const SkyAnswers& answers) const {
+  const auto start = EvaluationCounter::Clock::now();
+  const WholeCityOnDemand& city = *evaluation_->city;
+  PatchScene scene{city.seen_from(cell.cell)};
+  if (package().has_crowns()) scene.crowns = &city.crowns(settings().further.canopy);
+  const auto scene_ready = EvaluationCounter::Clock::now();
+  store_shadow_patches(cell, scene, patch_directions(package().manifest()), evaluation_->further.shadow_columns(),
+                       further_columns(), answers, evaluation_->stop);
   evaluation_->counter->add_times(start, scene_ready);
 }
 

@@ -38,6 +38,7 @@ class AtomicFolder {
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
+  [[nodiscard]] const std::filesystem::path& destination() const { return name_.destination(); }
   /// The folder to write to. It does not exist yet.
   [[nodiscard]] const std::filesystem::path& temporary() const { return name_.temporary(); }
   /// Renames the folder. One of this name is replaced if it holds `mark`, a file that says what it is; else it is left alone.

@@ -13,6 +13,7 @@
 #include "results/table/sky_table_ply.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
+#include "results/raster/raster_writer_solweig.hpp"
 #include "results/raster/raster_writers.hpp"
 #endif
 
@@ -67,6 +68,12 @@ std::unique_ptr<SurfaceTablesWriter> make_surfaces_glb(const TableFrame& frame, 
 template <auto make_writer>
 std::unique_ptr<RasterWriter> await(const RasterFrame& frame, const std::filesystem::path& path) {
   return std::make_unique<AwaitedRasterWriter>([frame, path] { return (gdal_files().*make_writer)(frame, path); }, frame.threads);
+}
+
+/// A writer of ours that needs GDAL.
+template <class Writer>
+std::unique_ptr<RasterWriter> await_writer(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<AwaitedRasterWriter>([frame, path] { return std::make_unique<Writer>(frame, path); }, frame.threads);
 }
 
 template <auto make_writer>
@@ -126,6 +133,14 @@ constexpr OutputFormat formats[] = {
      .raster_writer = await<&GdalFiles::zipped_geotiffs>,
      .raster_writer_bytes = zipped_geotiff_bytes,
      .bytes_of_pixel = 2.1},
+    {.name = "folder for SOLWEIG",
+     .endings = {".solweig", ""},
+     .holds_bounds = true,
+     .is_for_solweig = true,
+     .is_solweig_kit = true,
+     .raster_writer = await_writer<SolweigWriter>,
+     .raster_writer_bytes = SolweigWriter::bytes_for,
+     .bytes_of_pixel = 1.5},
 #endif
     {.name = "CSV",
      .endings = {".csv", ""},

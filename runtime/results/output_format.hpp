@@ -25,6 +25,7 @@ struct OutputFormat {
   bool is_picture = false;      ///< a drawing of the values of --grid, also for --preview, or of the sky above --at
   bool holds_bounds = false;    ///< whether --bounds has bands or columns in it
   bool is_for_solweig = false;  ///< whose reader needs the values of add_for_solweig: they are computed without being asked for
+  bool is_solweig_kit = false;  ///< shadow patches are among them, and files of the surface are beside them
 
   /// Makes the writer of a file for the values of --grid; null where the format holds tables alone.
   std::unique_ptr<RasterWriter> (*raster_writer)(const RasterFrame& frame, const std::filesystem::path& path) = nullptr;

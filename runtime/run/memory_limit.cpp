@@ -42,11 +42,12 @@ constexpr double ray_azimuth_bytes = 180 + 11 * 64;            // RayEngine, wit
 
 bool traces_whole_city(const ResolvedSettings& settings) {
   return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.allowed_error.has_value() ||
-         settings.sky.further.horizon_distances;
+         settings.sky.further.horizon_distances || settings.sky.further.shadow_patches;
 }
 
 bool uses_crowns(const package::Manifest& manifest, const ResolvedSettings& settings) {
-  return manifest.canopy.has_value() && settings.sky.further.any_of_canopies();
+  const Quantities& further = settings.sky.further;
+  return manifest.canopy.has_value() && (further.any_of_canopies() || further.shadow_patches);
 }
 
 double bytes_of_canopies(const package::Manifest& manifest, const ResolvedSettings& settings) {

@@ -20,6 +20,7 @@
 #include "receivers/raster_receivers.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
+#include "run/usable_view.hpp"
 #include "scene/plan_index.hpp"
 
 namespace farlod {
@@ -141,16 +142,6 @@ constexpr const char* smaller_part = "choose a smaller part";
 void require_usable_part(const Box2d& part) {
   for (const double x : {part.low.x, part.low.y, part.high.x, part.high.y}) require_coordinate("a coordinate of the part", x);
   if (part.empty()) throw InvalidArgument("the part is empty: its low corner must lie south-west of its high corner");
-}
-
-void require_usable_view(const RasterPlan& plan) {
-  constexpr double most_pixels = 1e9;
-  require_between("step_m", plan.step_m, 0.01, 10'000.0);
-  require_coordinate("north_west_m.x", plan.north_west_m.x);
-  require_coordinate("north_west_m.y", plan.north_west_m.y);
-  if (plan.columns == 0 || plan.rows == 0) throw InvalidArgument("the raster has no pixels: give a column and a row at least");
-  if (static_cast<double>(plan.columns) * static_cast<double>(plan.rows) > most_pixels)
-    throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
 }
 
 /// Which heights are looked up.

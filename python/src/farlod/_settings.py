@@ -18,7 +18,7 @@ Directions = Literal["partition", "fibonacci"]
 Metric = Literal["cosine", "solid"]
 Above = Literal["ground", "surface", "sea"]
 SkyPatches = Literal["tregenza", "reinhart"]
-Quantity = Literal["svf_solid", "directional", "hidden", "svf_total", "svfaveg", "directional_vegetation", "shares"]
+Quantity = Literal["svf_solid", "directional", "hidden", "shadow_patches", "svf_total", "svfaveg", "directional_vegetation", "shares"]
 CanopyRule = Literal["umep", "crowns", "beer"]
 #: Called as ``progress(stage, done, all)`` some times a second, by the thread that called farlod; True prints a line.
 ProgressListener = Callable[[str, int, int], None]

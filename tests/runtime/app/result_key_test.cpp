@@ -131,6 +131,7 @@ TEST_F(ResultKey, HasEachQuantity) {
                          {"svf_total", further(&Quantities::svf_total)},
                          {"svfaveg", further(&Quantities::svfaveg)},
                          {"directional_vegetation", further(&Quantities::directional_vegetation)},
+                         {"shadow_patches", further(&Quantities::shadow_patches)},
                          {"shares", further(&Quantities::sky_shares)},
                          {"sun of a day", sun(2026y / 6 / 21, 1, 5min)},
                          {"sun of another day", sun(2026y / 1 / 1, 1, 5min)},
