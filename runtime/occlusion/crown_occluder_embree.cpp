@@ -11,6 +11,7 @@
 #include "farlod/point.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/device_embree.hpp"
+#include "occlusion/prism_rays.hpp"
 #include "occlusion/queries_embree.hpp"
 
 namespace farlod {
@@ -167,6 +168,7 @@ struct QuestionContext {
   Findings findings;
   double enough;               ///< a ray that met so small a ψ, or a smaller one, need not go on
   bool is_any_enough = false;  ///< no ray need go on that met a crown, and nothing is to be found besides
+  const PrismRays* rays = nullptr;  ///< of the packet, where any is enough
 };
 
 }  // namespace
@@ -217,7 +219,7 @@ struct CrownOccluder::Impl {
   static void visit(const RTCOccludedFunctionNArguments* arguments) {
     const Impl& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
     auto& question = *reinterpret_cast<QuestionContext*>(arguments->context);
-    if (question.is_any_enough) return self.end_rays_that_meet(arguments->primID, *arguments);
+    if (question.is_any_enough) return self.end_rays_that_meet(arguments->primID, *arguments, *question.rays);
     for (unsigned n = 0; n < arguments->N; ++n)
       if (arguments->valid[n] == -1) self.visit(arguments->primID, arguments->ray, arguments->N, n, question);
   }
@@ -232,10 +234,17 @@ struct CrownOccluder::Impl {
     return {RTCRayN_dir_x(rays, count, n), RTCRayN_dir_y(rays, count, n), RTCRayN_dir_z(rays, count, n)};
   }
 
-  void end_rays_that_meet(unsigned number, const RTCOccludedFunctionNArguments& a) const {
-    const CrownTurn turn(crowns[number]);
+  void end_rays_that_meet(unsigned number, const RTCOccludedFunctionNArguments& a, const PrismRays& rays) const {
+    const Crown& crown = crowns[number];
+    if (a.N == PrismRays::lanes && rays.see(crown)) {
+      const std::uint32_t met = rays.meet(crown, &RTCRayN_tnear(a.ray, a.N, 0), &RTCRayN_tfar(a.ray, a.N, 0));
+      for (unsigned n = 0; n < a.N; ++n)
+        if (a.valid[n] == -1 && ((met >> n) & 1U) != 0) RTCRayN_tfar(a.ray, a.N, n) = -infinity;
+      return;
+    }
+    const CrownTurn turn(crown);
     for (unsigned n = 0; n < a.N; ++n)
-      if (a.valid[n] == -1 && !chord_on(a.ray, a.N, n, crowns[number], turn).is_none()) RTCRayN_tfar(a.ray, a.N, n) = -infinity;
+      if (a.valid[n] == -1 && !chord_on(a.ray, a.N, n, crown, turn).is_none()) RTCRayN_tfar(a.ray, a.N, n) = -infinity;
   }
 
   void visit(unsigned number, RTCRayN* rays, unsigned count, unsigned n, QuestionContext& question) const {
@@ -290,10 +299,12 @@ std::uint32_t CrownOccluder::met_before(const Occluder::Distances& ends, const R
   if (impl_->scene == nullptr || wanted == 0) return 0;
   QuestionContext context = impl_->question_of(CrownQuestion::light);
   context.is_any_enough = true;
+  const PrismRays prism_rays(origins, directions, impl_->crowns.front());
+  context.rays = &prism_rays;
   RayPacket packet(origins, directions, begin, wanted);
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane)
     packet.rays.tfar[lane] = std::min(packet.rays.tfar[lane], ends[lane]);
-  ask_occluded(packet.valid.data(), impl_->scene.get(), context.embree, packet.rays);
+  ask_occluded_together(packet.valid.data(), impl_->scene.get(), context.embree, packet.rays);
   std::uint32_t met = 0;
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) met |= packet.rays.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return met & wanted;

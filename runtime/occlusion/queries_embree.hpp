@@ -55,6 +55,13 @@ inline void ask_occluded(const int* valid, RTCScene scene, EmbreeContext& contex
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
+/// Neighbors, traced as one, for those who do not mind to be shown a body twice.
+inline void ask_occluded_together(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays) {
+  OcclusionArguments arguments = occlusion_arguments(/*coherent=*/true);
+  arguments.context = &context;
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+
 inline void ask_nearest(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -95,6 +102,12 @@ inline void ask_occluded(const int* valid, RTCScene scene, OcclusionArguments& a
 }
 
 inline void ask_nearest(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+
+/// Neighbors, traced as one, for those who do not mind to be shown a body twice.
+inline void ask_occluded_together(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays) {
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid, scene, &context, &rays);
+}
 
 /// Neighbors, traced as one.
 inline void ask_nearest(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
