@@ -25,8 +25,17 @@ struct RasterFile {
   [[nodiscard]] std::optional<double> at(Point2d p) const;
 };
 
-/// One of its bands, counted from 1, and of a ZIP file or a Zarr group its svf; and the names of all of them.
+/// One of its bands, counted from 1, and of a ZIP file, a folder for SOLWEIG or a Zarr group its svf; and the names of all of them.
 [[nodiscard]] RasterFile read_raster(const std::filesystem::path& file, int band = 1);
 [[nodiscard]] std::vector<std::string> band_names(const std::filesystem::path& file);
+
+/// An array of bytes, as NumPy stores it in an .npz file.
+struct BytesArray {
+  std::size_t rows = 0, columns = 0, depth = 0;
+  std::string bytes;
+
+  [[nodiscard]] int at(std::size_t pixel, std::size_t n) const { return static_cast<unsigned char>(bytes.at(pixel * depth + n)); }
+};
+[[nodiscard]] BytesArray read_array(const std::filesystem::path& npz_file, const std::string& name);
 
 }  // namespace farlod::acceptance

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cpl_vsi.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tests/acceptance/raster_file.hpp"
 
@@ -26,9 +29,10 @@ std::optional<double> RasterFile::at(Point2d p) const {
 
 RasterFile read_raster(const std::filesystem::path& file, int band_number) {
   GDALAllRegister();
-  const std::string name = file.extension() == ".zip"    ? "/vsizip/" + file.string() + "/svf.tif"
-                           : file.extension() == ".zarr" ? "ZARR:\"" + file.string() + "\":/svf"
-                                                         : file.string();
+  const std::string name = file.extension() == ".zip"       ? "/vsizip/" + file.string() + "/svf.tif"
+                           : file.extension() == ".solweig" ? "/vsizip/" + file.string() + "/svfs.zip/svf.tif"
+                           : file.extension() == ".zarr"    ? "ZARR:\"" + file.string() + "\":/svf"
+                                                            : file.string();
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   std::array<double, 6> place{};
   if (!dataset || dataset->GetGeoTransform(place.data()) != CE_None)
@@ -61,6 +65,24 @@ std::vector<std::string> band_names(const std::filesystem::path& file) {
   std::vector<std::string> names;
   for (int n = 1; n <= dataset->GetRasterCount(); ++n) names.emplace_back(dataset->GetRasterBand(n)->GetDescription());
   return names;
+}
+
+BytesArray read_array(const std::filesystem::path& npz_file, const std::string& name) {
+  const std::string member = "/vsizip/{" + npz_file.string() + "}/" + name + ".npy";
+  VSILFILE* const file = VSIFOpenL(member.c_str(), "rb");
+  if (file == nullptr) throw std::runtime_error(npz_file.string() + " has no " + name);
+  std::string bytes;
+  std::vector<char> piece(1 << 20);
+  while (const std::size_t count = VSIFReadL(piece.data(), 1, piece.size(), file)) bytes.append(piece.data(), count);
+  VSIFCloseL(file);
+  const std::size_t header = bytes.find('\n') + 1, shape = bytes.find("'shape': (");
+  BytesArray array;
+  if (bytes.find("'descr': '|u1', 'fortran_order': False") > header ||
+      std::sscanf(bytes.c_str() + shape, "'shape': (%zu, %zu, %zu)", &array.rows, &array.columns, &array.depth) != 3)
+    throw std::runtime_error(name + " is no array of bytes");
+  array.bytes = bytes.substr(header);
+  if (array.bytes.size() != array.rows * array.columns * array.depth) throw std::runtime_error(name + " is not whole");
+  return array;
 }
 
 }  // namespace farlod::acceptance

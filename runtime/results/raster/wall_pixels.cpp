@@ -53,7 +53,8 @@ double middle_of_longest_run(const std::array<bool, line_count>& is_in) {
     while (is_in[(begin + length) % line_count]) ++length;
     if (length > best_length) best_begin = begin, best_length = length;
   }
-  return best_length == 0 ? 0.0 : static_cast<double>(best_begin) + 0.5 * static_cast<double>(best_length - 1);
+  if (best_length == 0) return 0.0;
+  return std::fmod(static_cast<double>(best_begin) + 0.5 * static_cast<double>(best_length - 1), line_count);
 }
 
 /// A pixel of a surface, and those around it.
@@ -69,7 +70,7 @@ class WallPixel {
     const std::size_t most = *std::ranges::max_element(walls);
     std::ranges::transform(walls, has_most.begin(), [most](std::size_t count) { return count == most; });
     const double line = middle_of_longest_run(has_most);
-    const WallLine& across = lines[static_cast<std::size_t>(line) % line_count];
+    const WallLine& across = lines[static_cast<std::size_t>(line)];
     const double left_deg = 270.0 - line, turned_deg = sum_on(across.left) > sum_on(across.right) ? left_deg - 180.0 : left_deg;
     return static_cast<float>(std::fmod(turned_deg + 360.0, 360.0));
   }

@@ -32,7 +32,7 @@ struct Change {
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
       evaluation;
   [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, svf_total, svf_total_bounds,
-                          svfaveg, directional_vegetation, sky_shares, canopy] = further;
+                          svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
 }

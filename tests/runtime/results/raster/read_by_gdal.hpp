@@ -21,9 +21,10 @@ namespace farlod {
   GDALAllRegister();
   constexpr std::array bands{"svf", "svf_low", "svf_high"};
   const std::string name = bands.at(static_cast<std::size_t>(band - 1)), ending = path.extension().string();
-  const std::string file = ending == ".zip"    ? "/vsizip/" + path.string() + "/" + name + ".tif"
-                           : ending == ".zarr" ? "ZARR:\"" + path.string() + "\":/" + name
-                                               : path.string();
+  const std::string file = ending == ".zip"       ? "/vsizip/" + path.string() + "/" + name + ".tif"
+                           : ending == ".solweig" ? "/vsizip/" + path.string() + "/svfs.zip/" + name + ".tif"
+                           : ending == ".zarr"    ? "ZARR:\"" + path.string() + "\":/" + name
+                                                  : path.string();
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));
   EXPECT_NE(dataset, nullptr) << path;
   if (dataset == nullptr || dataset->GetRasterCount() > 0) return dataset;
