@@ -67,6 +67,21 @@ TEST_F(UmepComparison, TheWholeCityAgrees) {
   EXPECT_GE(d.correlation, least_correlation);
 }
 
+/// Patches at walls differ, which UMEP has half a pixel farther away.
+constexpr double least_share_of_same_patches = 0.975;
+/// UMEP's rasters are rounded to five digits, and its weights to whole degrees.
+constexpr double largest_rms_of_same_patches = 0.0002;
+
+TEST_F(UmepComparison, ThePatchesOfTheSkyAreItsOwn) {
+  folder.must("farlod-svf a.farlod --on-surface --height 0.05 --quiet -o kit.solweig");
+  folder.must(FARLOD_SOURCE_DIR "/validation/umep_patches " + data("goteborg/dsm.asc") + " kit.solweig " +
+              data("goteborg/svf_umep.asc") + " > patches.txt");
+  double same = 0.0, bias = 0.0, rms = 1.0;
+  ASSERT_EQ(std::sscanf(folder.text_of("patches.txt").c_str(), "%lf | %lf | %lf", &same, &bias, &rms), 3);
+  EXPECT_GE(same, least_share_of_same_patches);
+  EXPECT_LE(rms, largest_rms_of_same_patches);
+}
+
 TEST_F(UmepComparison, WhatSolweigGetsHasAValueForEachPixelOfTheSurfaceModel) {
   folder.must("farlod-svf a.farlod --grid-like " + data("goteborg/dsm.asc") + " --on-surface --height 0.05 --quiet -o svfs.zip");
   const RasterFile svf = read_raster(folder.path("svfs.zip"));
