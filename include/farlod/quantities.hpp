@@ -82,9 +82,9 @@ struct Quantities {
   /// `share_building`. Takes the rays of svfaveg.
   bool sky_shares = false;
   CanopySettings canopy = {};
-  /// What hides each of the 153 patches of the sky that SOLWEIG of UMEP knows, as bits: farlod/shadow_patches.hpp says of what, and
-  /// how to read them. Columns `shadow_1` to `shadow_7`, `vegshadow_1` …, `vbshadow_1` …. Takes rays against the whole city, with
-  /// its trees, whatever the engine and the receiver's normal.
+  /// What hides each of the 153 patches of the sky that SOLWEIG of UMEP knows, as bits, which farlod/shadow_patches.hpp tells how
+  /// to read. Columns `shadow_1` to `shadow_7`, `vegshadow_1` …, `vbshadow_1` …. Takes rays against the whole city, with its
+  /// trees, whatever the engine and the receiver's normal.
   bool shadow_patches = false;
 
   [[nodiscard]] FARLOD_EXPORT bool any() const;

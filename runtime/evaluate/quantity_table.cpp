@@ -87,7 +87,9 @@ void describe_sunlit(const Quantities&, Columns& columns) {
 
 void describe_shadow_patches(const Quantities&, Columns& columns) {
   const std::array<std::pair<const char*, const char*>, shadow_matrix_count> matrices{
-      {{"shadow_", "nothing solid hides"}, {"vegshadow_", "no crown hides sky in"}, {"vbshadow_", "no crown hides solid things in"}}};
+      {{"shadow_", "nothing solid hides"},
+       {"vegshadow_", "no crown hides sky in"},
+       {"vbshadow_", "no crown hides solid things in"}}};
   for (const auto& [name, meaning] : matrices)
     for (std::size_t n = 0; n < columns_of_shadow_matrix; ++n)
       columns.push_back({name + std::to_string(n + 1), "1",

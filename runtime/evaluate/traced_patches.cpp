@@ -57,8 +57,7 @@ void trace_patch(const PatchScene& scene, const RayOrigins& origins, const Point
   }
   const Occluder::Distances ends = scene.solid.occluder.distances(origins, direction, least_distance_m, wanted);
   std::uint32_t solid = 0;
-  for (std::size_t l = 0; l < RayOrigins::lanes; ++l)
-    solid |= ends[l] < std::numeric_limits<float>::infinity() ? 1U << l : 0U;
+  for (std::size_t l = 0; l < RayOrigins::lanes; ++l) solid |= ends[l] < std::numeric_limits<float>::infinity() ? 1U << l : 0U;
   // A crown that is met before the end of a ray hides what is solid there, or the sky where the ray has no end
   const std::uint32_t crowns = scene.crowns->met_before(ends, origins, same_for_all(direction), least_distance_m, wanted);
   patches.add(ShadowMatrix::building, patch, ~solid);

@@ -166,8 +166,8 @@ class Findings {
 struct QuestionContext {
   EmbreeContext embree;
   Findings findings;
-  double enough;               ///< a ray that met so small a ψ, or a smaller one, need not go on
-  bool is_any_enough = false;  ///< no ray need go on that met a crown, and nothing is to be found besides
+  double enough;                    ///< a ray that met so small a ψ, or a smaller one, need not go on
+  bool is_any_enough = false;       ///< no ray need go on that met a crown, and nothing is to be found besides
   const PrismRays* rays = nullptr;  ///< of the packet, where any is enough
 };
 

@@ -18,8 +18,8 @@
 namespace farlod {
 namespace {
 
-/// The lowest and the highest place of a crown above or below a place of the plan, which lies so far from the crown's axis; nothing
-/// where the crown does not reach.
+/// The lowest and the highest place of a crown above or below a place of the plan, which lies so far from the crown's axis;
+/// nothing where the crown does not reach.
 std::optional<std::pair<double, double>> extent_of(const Crown& crown, Point2d from_axis) {
   const double half = crown.half_width_m, bottom = crown.bottom_m, top = crown.top_m;
   if (crown.shape == CrownShape::prism) {
@@ -38,9 +38,7 @@ std::optional<std::pair<double, double>> extent_of(const Crown& crown, Point2d f
 class CanopyOfPlan {
  public:
   CanopyOfPlan(const package::Manifest& manifest, const RasterPlan& plan)
-      : manifest_(manifest),
-        plan_(plan),
-        canopy_{no_crowns(plan), no_crowns(plan)} {}
+      : manifest_(manifest), plan_(plan), canopy_{no_crowns(plan), no_crowns(plan)} {}
 
   /// `corner_grid` is that of the crown's cell.
   void add(const Crown& crown, Point2d corner_grid) {

@@ -25,7 +25,8 @@ struct RasterFile {
   [[nodiscard]] std::optional<double> at(Point2d p) const;
 };
 
-/// One of its bands, counted from 1, and of a ZIP file, a folder for SOLWEIG or a Zarr group its svf; and the names of all of them.
+/// One of its bands, counted from 1, and of a ZIP file, a folder for SOLWEIG or a Zarr group its svf; and the names of all of
+/// them.
 [[nodiscard]] RasterFile read_raster(const std::filesystem::path& file, int band = 1);
 [[nodiscard]] std::vector<std::string> band_names(const std::filesystem::path& file);
 

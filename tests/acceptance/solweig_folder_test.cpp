@@ -155,7 +155,7 @@ TEST_F(SolweigFolder, HasTheShadowsAndTheSurfaceBesideTheFilesOfSvf) {
   folder.must("farlod-svf b.farlod -o kit.solweig --grid 4" + box_of_kit);
   folder.must("farlod-svf b.farlod -o svfs.zip --grid 4" + box_of_kit);
   EXPECT_THAT(names_in("kit.solweig"), ElementsAre("cdsm.tif", "dem.tif", "dsm.tif", "shadowmats.npz", "svfs.zip", "tdsm.tif",
-                                                       "wall_aspect.tif", "wall_height.tif"));
+                                                   "wall_aspect.tif", "wall_height.tif"));
   const RasterFile svf = raster("kit.solweig"), of_zip = raster("svfs.zip");
   EXPECT_EQ(svf.values, of_zip.values);
   for (const char* name : {"dsm.tif", "dem.tif", "cdsm.tif", "tdsm.tif", "wall_height.tif", "wall_aspect.tif"}) {

@@ -335,11 +335,13 @@ class City:
 
         Parameters
         ----------
-        quantities : iterable of {"svf_solid", "directional", "hidden", "svf_total", "svfaveg", "directional_vegetation", "shares"}
-            What to compute besides: the share of solid angle; the four halves of the sky as UMEP has them (``svfN``, ``svfE``,
-            ``svfS``, ``svfW``); the shares that near and far geometry hide (``hidden_near``, ``hidden_far``); with the crowns of
-            a package's trees ``svf_total`` and ``svfveg``, ``svfaveg``, both of the halves of the sky (``svfNveg``, …,
-            ``svfNaveg``, …), and the shares of sky, vegetation and building.
+        quantities : iterable of str
+            What to compute besides. ``"svf_solid"``: the share of solid angle; ``"directional"``: the four halves of the sky as
+            UMEP has them (``svfN``, ``svfE``, ``svfS``, ``svfW``); ``"hidden"``: the shares that near and far geometry hide
+            (``hidden_near``, ``hidden_far``); ``"shadow_patches"``: what hides each of the 153 patches of SOLWEIG, as bits
+            (``shadow_1``, …); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
+            ``"directional_vegetation"``: both of the halves of the sky (``svfNveg``, …, ``svfNaveg``, …), and ``"shares"``: of
+            sky, vegetation and building.
         verify : int, default 0
             So many random receivers are computed again, exactly, and compared: ``summary["verify"]``.
         points, normals, height, above, metric, max_error, bounds, **options

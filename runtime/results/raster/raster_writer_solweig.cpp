@@ -71,8 +71,7 @@ void SolweigWriter::write(const RasterTile& tile) {
 
 void SolweigWriter::write_shadow_matrices() {
   NpzFile file(folder_.temporary() / shadows_name, folder_.destination(), frame_.threads);
-  for (const ShadowMatrix matrix :
-       {ShadowMatrix::building, ShadowMatrix::vegetation, ShadowMatrix::vegetation_before_building})
+  for (const ShadowMatrix matrix : {ShadowMatrix::building, ShadowMatrix::vegetation, ShadowMatrix::vegetation_before_building})
     file.add(shadows_->matrix(matrix));
   file.close();
   shadows_.reset();
@@ -88,9 +87,13 @@ void SolweigWriter::commit() {
 
 std::uint64_t SolweigWriter::bytes_for(const RasterFrame& frame) {
   // One file after the other
-  return ShadowSpool::bytes_for(frame) + std::max({zipped_geotiff_bytes(without_shadows(frame)),
-                                                   NpzFile::bytes_for(frame.columns * shadow_patch_count, frame.threads),
-                                                   surface_rasters_bytes(frame)});
+  std::uint64_t bytes = zipped_geotiff_bytes(without_shadows(frame)), spool_bytes = 0;
+  if (first_shadow_band(frame.bands) < frame.bands.size()) {
+    spool_bytes = ShadowSpool::bytes_for(frame);
+    bytes = std::max(bytes, NpzFile::bytes_for(frame.columns * shadow_patch_count, frame.threads));
+  }
+  if (frame.package != nullptr) bytes = std::max(bytes, surface_rasters_bytes(frame));
+  return bytes + spool_bytes;
 }
 
 }  // namespace farlod

@@ -61,7 +61,8 @@ void ShadowSpool::load(ShadowMatrix matrix, std::size_t first_row, std::size_t e
   for (std::size_t row = first_row; row < end_row; ++row) {
     const std::size_t tile_row = row / raster_tile_edge;
     for (auto t = places_.lower_bound({tile_row, 0}); t != places_.end() && t->first.row == tile_row; ++t) {
-      const std::size_t before = static_cast<std::size_t>(matrix) * tile_pixels * matrix_bytes + row % raster_tile_edge * row_bytes;
+      const std::size_t before =
+          static_cast<std::size_t>(matrix) * tile_pixels * matrix_bytes + row % raster_tile_edge * row_bytes;
       const auto bytes = std::span(loaded_).subspan(((row - first_row) * tiles + t->first.column) * row_bytes, row_bytes);
       file_.read(t->second + before, std::as_writable_bytes(bytes));
     }

@@ -17,8 +17,8 @@
 
 namespace farlod {
 
-/// Turns the columns of Quantities::shadow_patches, which come tile by tile, into the three matrices of UMEP: rows × columns × 153
-/// bytes of 0 and 1, from the north-west. Until then they lie in a file beside the result, 63 bytes a pixel.
+/// Turns the columns of Quantities::shadow_patches, which come tile by tile, into the three matrices of UMEP: rows × columns ×
+/// 153 bytes of 0 and 1, from the north-west. Until then they lie in a file beside the result, 63 bytes a pixel.
 ///
 /// UMEP has a value for each pixel. Pixels without data, which are those inside buildings, see no sky (0 in the matrix of
 /// buildings), and no crown (1 in those of vegetation).

@@ -87,7 +87,8 @@ class WallPixel {
     // Pixels without a surface are as low as this one
     const double own_m = static_cast<double>(surface_.height_m[place({0, 0})]);
     for (const PixelOffset& o : offsets)
-      if (exists(o) && !std::isnan(surface_.height_m[place(o)])) sum_m += static_cast<double>(surface_.height_m[place(o)]) - own_m;
+      if (exists(o) && !std::isnan(surface_.height_m[place(o)]))
+        sum_m += static_cast<double>(surface_.height_m[place(o)]) - own_m;
     return sum_m;
   }
   [[nodiscard]] bool exists(const PixelOffset& o) const {
@@ -110,8 +111,8 @@ std::vector<float> wall_heights(const PixelHeights& surface) {
   for (std::size_t row = 1; row + 1 < surface.rows; ++row)
     for (std::size_t column = 1; column + 1 < surface.columns; ++column) {
       float highest_m = -std::numeric_limits<float>::infinity();
-      for (const float m : {surface.at(row - 1, column), surface.at(row + 1, column), surface.at(row, column - 1),
-                            surface.at(row, column + 1)})
+      for (const float m :
+           {surface.at(row - 1, column), surface.at(row + 1, column), surface.at(row, column - 1), surface.at(row, column + 1)})
         highest_m = std::fmax(highest_m, m);
       // No comparison holds where the pixel has no surface
       const float height_m = highest_m - surface.at(row, column);

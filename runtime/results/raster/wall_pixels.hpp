@@ -21,8 +21,8 @@ struct PixelHeights {
 inline constexpr float least_wall_m = 3.0F;
 
 /// Walls as UMEP's "Wall Height and Aspect" has them: a wall stands on a pixel beside which, in the row or the column, there is a
-/// higher one; its height is what the highest of the four is above the pixel. 0 where that is less than least_wall_m, on the first
-/// and last rows and columns, and where there is no surface.
+/// higher one; its height is what the highest of the four is above the pixel. 0 where that is less than least_wall_m, on the
+/// first and last rows and columns, and where there is no surface.
 [[nodiscard]] std::vector<float> wall_heights(const PixelHeights& surface);
 
 /// How far from a pixel its aspect depends on others, in pixels: UMEP looks at 9 m, three pixels at least.

@@ -46,7 +46,8 @@ TEST(ShadowPatches, BeginWhereUmepHasThemAndFollowClockwise) {
     sum_deg += patch.azimuth.degrees();
   }
   // n patches from a on: n a + 180 (n − 1). None passes the full turn
-  EXPECT_NEAR(sum_deg, 180.0 * (153.0 - 8.0) + 30.0 * 4.0 + 28.0 * 2.0 + 24.0 * 5.0 + 19.0 * 8.0 + 7.0 * 10.0, 153 * rounding_deg);
+  EXPECT_NEAR(sum_deg, 180.0 * (153.0 - 8.0) + 30.0 * 4.0 + 28.0 * 2.0 + 24.0 * 5.0 + 19.0 * 8.0 + 7.0 * 10.0,
+              153 * rounding_deg);
 }
 
 TEST(ShadowPatches, LookToTrueNorthWhereTheGridDoesNot) {

@@ -43,7 +43,8 @@ TEST(OutputFormat, UnknownEndingsHaveNone) {
 
 TEST(OutputFormat, TheseAreAllEndings) {
 #ifdef FARLOD_WITH_GDAL
-  const std::string expected = ".tif, .tiff, .nc, .zarr, .zip, .solweig, .csv, .gpkg, .geojson, .fgb, .ply, .glb, .png, .svg, .pdf, .asc";
+  const std::string expected =
+      ".tif, .tiff, .nc, .zarr, .zip, .solweig, .csv, .gpkg, .geojson, .fgb, .ply, .glb, .png, .svg, .pdf, .asc";
 #else
   const std::string expected = ".csv, .ply, .glb, .png, .svg, .pdf, .asc";
 #endif

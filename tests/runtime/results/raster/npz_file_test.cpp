@@ -18,7 +18,11 @@ namespace {
 std::uint8_t value_at(std::size_t row, std::size_t n) { return (row * 31 + n * n) % 7 < 2 ? 1 : 0; }
 
 NpzArray numbered(const std::string& name, std::size_t rows, std::size_t columns) {
-  return {name, rows, columns, 153, [](std::size_t, std::size_t) {},
+  return {name,
+          rows,
+          columns,
+          153,
+          [](std::size_t, std::size_t) {},
           [](std::size_t row, std::span<std::uint8_t> values) {
             for (std::size_t n = 0; n < values.size(); ++n) values[n] = value_at(row, n);
           }};
@@ -70,7 +74,8 @@ TEST_F(NpzFileTest, HasTheArraysAfterTheirHeaders) {
   const std::size_t large_header = large.find('\n') + 1, row_bytes = 400 * 153;
   ASSERT_EQ(large.size(), large_header + 37 * row_bytes);
   for (std::size_t row = 0; row < 37; ++row)
-    for (std::size_t n = 0; n < row_bytes; ++n) ASSERT_EQ(large[large_header + row * row_bytes + n], static_cast<char>(value_at(row, n)));
+    for (std::size_t n = 0; n < row_bytes; ++n)
+      ASSERT_EQ(large[large_header + row * row_bytes + n], static_cast<char>(value_at(row, n)));
 }
 
 TEST_F(NpzFileTest, IsTheSameForAnyNumberOfThreads) {

@@ -65,7 +65,8 @@ TEST(WallPixels, FaceTheDirectionsOfATowerThatIsTurned) {
     for (std::size_t column = 0; column < walls.edge; ++column) {
       if (walls.height(column, row) == 0.0F) continue;
       const double east = static_cast<double>(column) + 0.5 - middle, north = middle - static_cast<double>(row) - 0.5;
-      const double along = std::cos(turn) * east - std::sin(turn) * north, across = std::sin(turn) * east + std::cos(turn) * north;
+      const double along = std::cos(turn) * east - std::sin(turn) * north,
+                   across = std::sin(turn) * east + std::cos(turn) * north;
       if (std::min(std::abs(along), std::abs(across)) > half - corner) continue;
       // The side to the north faces 30° clockwise of it
       const double expected = std::abs(across) > std::abs(along) ? (across > 0.0 ? 30.0 : 210.0) : (along > 0.0 ? 120.0 : 300.0);
@@ -89,11 +90,11 @@ TEST(WallPixels, FaceEachOtherAcrossAStreet) {
 
 TEST(WallPixels, LeaveOutLowStepsTheRimAndWhereThereIsNoSurface) {
   const float none = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<float> surface_m{9, 9, 9, 9, 9, 9,     //
-                                     9, 0, 0, 0, 0, 9,     //
-                                     9, 0, 2.9F, 0, 0, 9,  //
-                                     9, 0, 0, none, 0, 9,  //
-                                     9, 9, 9, 9, 9, 9};
+  const std::vector<float> surface_m{9, 9, 9,    9,    9, 9,  //
+                                     9, 0, 0,    0,    0, 9,  //
+                                     9, 0, 2.9F, 0,    0, 9,  //
+                                     9, 0, 0,    none, 0, 9,  //
+                                     9, 9, 9,    9,    9, 9};
   const std::vector<float> wall_m = wall_heights({6, 5, 1.0, surface_m});
   const std::vector<float> expected_m{0, 0, 0, 0,    0, 0,  //
                                       0, 9, 9, 9,    9, 0,  //
