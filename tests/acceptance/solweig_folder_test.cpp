@@ -201,6 +201,35 @@ TEST_F(SolweigFolder, HasTheHeightsOfBlocksAndCrowns) {
   EXPECT_GT(walls, 300U);
 }
 
+TEST_F(SolweigFolder, HasWallsThatDoNotDependOnWhereTilesMeet) {
+  // Tiles have 256 rows: they meet at other places of the town
+  const std::string run = "farlod-svf a.farlod --grid 1 --on-surface --quiet --bbox 499950,5499820,500010,";
+  folder.must(run + "5500180 -o kit.solweig");
+  folder.must(run + "5500080 -o lower.solweig");
+  std::size_t walls = 0;
+  for (const char* name : {"wall_height.tif", "wall_aspect.tif"}) {
+    const RasterFile all = file(name), part = read_raster(folder.path("lower.solweig") / name);
+    ASSERT_EQ(all.rows, 360U);
+    ASSERT_EQ(part.rows, 260U);
+    // An aspect is made of pixels up to 4 away, and of their neighbours
+    for (std::size_t n = 5 * part.columns; n < part.values.size(); ++n) {
+      ASSERT_EQ(part.values[n], all.values[n + 100 * all.columns]) << name << ' ' << n;
+      walls += part.values[n].value_or(0.0) > 0.0;
+    }
+  }
+  EXPECT_GT(walls, 500U);
+  const RasterFile dsm = file("dsm.tif"), wall = file("wall_height.tif");
+  for (std::size_t row = 1; row + 1 < dsm.rows; ++row)
+    for (std::size_t column = 1; column + 1 < dsm.columns; ++column) {
+      const std::size_t n = row * dsm.columns + column;
+      double highest_m = -1e9;
+      for (const std::size_t other : {n - 1, n + 1, n - dsm.columns, n + dsm.columns})
+        highest_m = std::max(highest_m, dsm.values[other].value_or(-1e9));
+      const double height_m = highest_m - dsm.values[n].value();
+      ASSERT_NEAR(wall.values[n].value(), height_m >= 3.0 ? height_m : 0.0, 1e-5) << column << ' ' << row;
+    }
+}
+
 TEST_F(SolweigFolder, HasPixelsInsideBuildingsThatSeeNoSky) {
   folder.must("farlod-svf b.farlod -o kit.solweig --grid 4" + box_of_kit);
   const RasterFile svf = raster("kit.solweig");
