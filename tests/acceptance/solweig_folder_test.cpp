@@ -195,7 +195,9 @@ TEST_F(SolweigFolder, HasTheHeightsOfBlocksAndCrowns) {
     ASSERT_NEAR(cdsm.values[n].value_or(-9.0), top_m, 0.2) << n;
     ASSERT_NEAR(tdsm.values[n].value_or(-9.0), bottom_m, 0.2) << n;
     crowns += top_m > 0.0, walls += wall.values[n].value_or(0.0) > 0.0;
-    if (wall.values[n].value_or(0.0) > 0.0) EXPECT_GE(*wall.values[n], 3.0);
+    if (const double wall_m = wall.values[n].value_or(0.0); wall_m > 0.0) {
+      EXPECT_GE(wall_m, 3.0);
+    }
   }
   EXPECT_GT(crowns, 300U);
   EXPECT_GT(walls, 300U);

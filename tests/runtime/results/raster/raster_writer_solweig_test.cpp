@@ -41,7 +41,9 @@ TEST(SolweigWriter, SaysWhatItHolds) {
     write_all(frame, folder.file("o.solweig"));
     const std::uint64_t said = SolweigWriter::bytes_for(frame);
     EXPECT_LE(held.most_bytes(), said + 2 * frame.bands.size() * tile_bytes + beside) << threads;
-    if (HeldMemory::counts_malloc) EXPECT_LE(said, held.most_bytes() + held.most_bytes() / 2) << threads;
+    if (HeldMemory::counts_malloc) {
+      EXPECT_LE(said, held.most_bytes() + held.most_bytes() / 2) << threads;
+    }
   }
 }
 
