@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -150,10 +151,11 @@ double aspect_by_force(const Walls& walls, int column, int row) {
 
 TEST(WallPixels, RunAlongTheLinesThatBruteForceFinds) {
   std::mt19937 random(7);
+  const auto below = [&random](unsigned int end) { return static_cast<double>(random() % end); };
   std::vector<std::array<double, 4>> boxes;
   for (int n = 0; n < 25; ++n) {
-    const double x = random() % 90, y = random() % 90;
-    boxes.push_back({x, y, x + 4.0 + random() % 20, y + 4.0 + random() % 20});
+    const double x = below(90), y = below(90), width = 4.0 + below(20);
+    boxes.push_back({x, y, x + width, y + 4.0 + below(20)});
   }
   const Walls walls(100, [&](double x, double y) {
     double height_m = 0.0;
