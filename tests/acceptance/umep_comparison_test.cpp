@@ -67,8 +67,8 @@ TEST_F(UmepComparison, TheWholeCityAgrees) {
   EXPECT_GE(d.correlation, least_correlation);
 }
 
-/// Patches at walls differ, which UMEP has half a pixel farther away.
-constexpr double least_share_of_same_patches = 0.975;
+/// Patches at walls differ, which UMEP has half a pixel farther away: 1.8 %. One band that begins 4° later makes 2.3 % of it.
+constexpr double least_share_of_same_patches = 0.981;
 /// UMEP's rasters are rounded to five digits, and its weights to whole degrees.
 constexpr double largest_rms_of_same_patches = 0.0002;
 
