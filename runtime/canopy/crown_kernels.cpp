@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "canopy/crown_sections.hpp"
+#include "canopy/crown_union.hpp"
 #include "horizon/edge_culling.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/sky_lanes.hpp"
@@ -176,89 +177,15 @@ FARLOD_LANES CutCrown cut_placed(const PlacedCrown& placed, float cosine, float 
   return placed.is_prism ? cut_prism(kept_square(placed), cosine, sine) : cut_round(kept_round(placed), true, cosine, sine);
 }
 
-/// An interval that is none: it begins above all slopes, and ends below.
-constexpr float none_low = 1e30F, none_high = -1.0F;
-
-/// What is hidden or behind crowns at an azimuth: slopes up to `ground`, which is the horizon and what has been joined to it; the
-/// core, from core_low to core_high; and the intervals of a list, which touch neither. Which of these holds an interval changes
-/// no sum, which is taken over the whole union.
-struct Union {
-  Floats ground, core_low = broadcast(none_low), core_high = broadcast(none_high);
-  float *low, *high;  ///< rows of the list, the first of which is free
-  std::size_t count = 1;
-
-  FARLOD_LANES void join(const CutCrown& cut) {
-    // Below the ground for all receivers, or not met
-    if (bits_of(cut.high > ground) == 0) return;
-    // The ground rises to intervals that begin in it
-    const Mask is_apart = cut.low > ground;
-    ground = max(ground, choose(is_apart, broadcast(none_high), cut.high));
-    const Floats width = choose(is_apart, cut.high - cut.low, broadcast(-1.0F));
-    if (bits_of(width > 0.0F) != 0) join_above(cut, width);
-  }
-
-  /// The core grows to intervals above the ground that touch it, and begins with the first.
-  FARLOD_LANES void join_above(const CutCrown& cut, const Floats& width) {
-    const Mask is_empty = core_high < 0.0F;
-    const Floats overlap = min(choose(is_empty, cut.high, core_high) - cut.low, cut.high - choose(is_empty, cut.low, core_low));
-    const Mask joins = choose(width > 0.0F, overlap, broadcast(-1.0F)) >= 0.0F;
-    core_low = choose(joins, min(core_low, cut.low), core_low);
-    core_high = choose(joins, max(core_high, cut.high), core_high);
-    const Mask is_left = choose(joins, broadcast(-1.0F), width) > 0.0F;
-    if (bits_of(is_left) == 0) return;
-    store(choose(is_left, cut.low, broadcast(-none_low)), low + count * lane_count);
-    store(choose(is_left, cut.high, broadcast(none_high)), high + count * lane_count);
-    ++count;
-  }
-};
-
-/// Puts the upper interval of two before the lower one, for each receiver.
-FARLOD_LANES void order_two(float* low, float* high, std::size_t first, std::size_t second) {
-  const Floats low_a = load(low + first * lane_count), low_b = load(low + second * lane_count);
-  const Floats high_a = load(high + first * lane_count), high_b = load(high + second * lane_count);
-  const Mask swaps = low_a < low_b;
-  store(choose(swaps, low_b, low_a), low + first * lane_count);
-  store(choose(swaps, high_b, high_a), high + first * lane_count);
-  store(choose(swaps, low_a, low_b), low + second * lane_count);
-  store(choose(swaps, high_a, high_b), high + second * lane_count);
-}
-
-/// Sorts the intervals of each receiver by their lower ends, from high to low: Batcher's merge exchange, whose steps depend on
-/// the number of intervals alone.
-FARLOD_LANES void sort_intervals(float* low, float* high, std::size_t count) {
-  if (count < 2) return;
-  const std::size_t largest = std::bit_ceil(count) / 2;
-  for (std::size_t p = largest; p > 0; p /= 2) {
-    std::size_t q = largest, r = 0;
-    for (std::size_t apart = p; apart > 0; apart = q - p, q /= 2, r = p) {
-      for (std::size_t n = 0; n + apart < count; ++n)
-        if ((n & p) == r) order_two(low, high, n, n + apart);
-    }
-  }
-}
-
-/// The sky of a union, from the maximal intervals that make it up.
+/// The sky of a union.
 template <class Sky>
-FARLOD_LANES Floats sky_of(const Union& u, const Sky& sky, const SkyWindow& above, const SkyWindow* gap) {
-  // The core is the first interval of the list
-  store(u.core_low, u.low);
-  store(u.core_high, u.high);
-  sort_intervals(u.low, u.high, u.count);
-  // A run of intervals that touch each other, from the ground on
-  Floats from = broadcast(-1.0F), to = u.ground, sum{};
-  for (std::size_t n = u.count + 1; n-- > 0;) {
-    // Beyond the last, the run ends in all lanes
-    const Floats next_low = n > 0 ? load(u.low + (n - 1) * lane_count) : broadcast(none_low);
-    const Mask opens = next_low > to;
-    if (bits_of(opens) != 0) {
-      // The run ends in some lanes: add its sky there
-      Floats term = sky_within(above, sky, from, to);
-      if (gap != nullptr) term += sky_within(*gap, sky, from, to);
-      sum += choose(opens, term, broadcast(0.0F));
-      from = choose(opens, next_low, from);
-    }
-    if (n > 0) to = max(choose(opens, load(u.high + (n - 1) * lane_count), to), load(u.high + (n - 1) * lane_count));
-  }
+FARLOD_LANES Floats sky_of(const CrownUnion& u, const Sky& sky, const SkyWindow& above, const SkyWindow* gap) {
+  Floats sum{};
+  for_each_run(u, [&](const Floats& from, const Floats& to, const Mask& ends) {
+    Floats term = sky_within(above, sky, from, to);
+    if (gap != nullptr) term += sky_within(*gap, sky, from, to);
+    sum += choose(ends, term, broadcast(0.0F));
+  });
   return sum;
 }
 
@@ -272,7 +199,7 @@ FARLOD_LANES Floats sky_behind(const SkyRows& rows, const AzimuthView& azimuths,
   const SkyWindow above = window_above(rows, k, sky);
   SkyWindow gap{};
   if constexpr (has_gaps) gap = window_of_gap(rows, k, sky);
-  Union u{.ground = above.from, .low = room, .high = room + (numbers.size() + 1) * lane_count};
+  CrownUnion u{.ground = above.from, .low = room, .high = room + (numbers.size() + 1) * lane_count};
   if constexpr (has_gaps) u.ground = ground_of(above.from, gap);
   for (const std::uint32_t number : numbers)
     if (bits_of(broadcast(placed[number].max_slope) > u.ground) != 0) u.join(cut_placed(placed[number], cosine, sine));
