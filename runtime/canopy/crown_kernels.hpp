@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "canopy/canopy_march.hpp"
 #include "canopy/crown_batches.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -111,6 +112,7 @@ struct CrownTarget {
   const char* name;
   const CrownKernels* cover;
   const CrownLightKernels* light;
+  const CanopyMarchKernels* march;
 };
 /// Those that this processor can run, the fastest first.
 [[nodiscard]] std::span<const CrownTarget> runnable_crown_kernels();

@@ -9,10 +9,11 @@
 namespace farlod {
 
 // What the kernels of the horizon are compiled for, too
-#define FARLOD_DECLARE_TARGET(target)                 \
-  namespace target {                                  \
-  extern const CrownKernels crown_kernels;            \
-  extern const CrownLightKernels crown_light_kernels; \
+#define FARLOD_DECLARE_TARGET(target)                   \
+  namespace target {                                    \
+  extern const CrownKernels crown_kernels;              \
+  extern const CrownLightKernels crown_light_kernels;   \
+  extern const CanopyMarchKernels canopy_march_kernels; \
   }
 FARLOD_DECLARE_TARGET(baseline)
 #ifdef FARLOD_X86_TARGETS
@@ -26,10 +27,11 @@ namespace {
 CrownTarget target_of(const KernelTarget& horizon) {
 #ifdef FARLOD_X86_TARGETS
   const std::string_view name = horizon.name;
-  if (name == "avx512") return {horizon.name, &avx512::crown_kernels, &avx512::crown_light_kernels};
-  if (name == "avx2") return {horizon.name, &avx2::crown_kernels, &avx2::crown_light_kernels};
+  if (name == "avx512")
+    return {horizon.name, &avx512::crown_kernels, &avx512::crown_light_kernels, &avx512::canopy_march_kernels};
+  if (name == "avx2") return {horizon.name, &avx2::crown_kernels, &avx2::crown_light_kernels, &avx2::canopy_march_kernels};
 #endif
-  return {horizon.name, &baseline::crown_kernels, &baseline::crown_light_kernels};
+  return {horizon.name, &baseline::crown_kernels, &baseline::crown_light_kernels, &baseline::canopy_march_kernels};
 }
 
 std::vector<CrownTarget> find_runnable_kernels() {

@@ -20,7 +20,7 @@ namespace farlod {
 namespace {
 
 /// 1 − svfaveg of the receivers of a packet: the view of solid things below the sky of their profiles that crowns hide, by some
-/// hundred rays. `hidden` takes the terms of all azimuths, which add up to it. What the far city hides is below the sky of a
+/// hundred rays. `hidden` takes F of each azimuth, the mean of which it is. What the far city hides is below the sky of a
 /// profile, and behind all crowns of the scene. The scene has the frame of the packet. Throws Cancelled when `stop` is asked for.
 void find_hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& receivers, const AzimuthSampling& azimuths,
                                const CanopyScene& scene, const std::stop_token& stop, std::span<PacketHorizon::Row> hidden);
@@ -96,7 +96,7 @@ std::uint32_t meet_crown_first(const CanopyScene& scene, const RayOrigins& origi
 void find_hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& receivers, const AzimuthSampling& azimuths,
                                const CanopyScene& scene, const std::stop_token& stop, std::span<Row> hidden) {
   const RayOrigins origins{receivers.x, receivers.y, receivers.z};
-  const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << receivers.count) - 1);
+  const auto all = receivers.lanes_in_use();
   std::ranges::fill(hidden, Row{});
   for (std::size_t n = 0; n < layers; ++n) {
     throw_if_cancelled(stop);
@@ -110,7 +110,7 @@ void find_hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& 
       directions.z = layer.slopes(k);
       const std::uint32_t first = meet_crown_first(scene, origins, directions, wanted, layer.in_gap(k));
       for (std::size_t l = 0; l < packet_lanes; ++l)
-        if ((first >> l & 1U) != 0) hidden[k][l] += static_cast<float>(azimuths_between) * layer.view(k)[l];
+        if ((first >> l & 1U) != 0) hidden[k][l] += static_cast<float>(azimuths_between * azimuths.size()) * layer.view(k)[l];
     }
   }
 }
@@ -157,45 +157,95 @@ SkiesOfPacket skies_of(const PacketAnswer& packet, const CellReceivers& cell, st
 }
 
 CanopyAnswers::CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
-                             CanopyCertainty certainty, std::stop_token stop)
-    : package_(package),
-      cell_(cell),
-      further_(further),
-      certainty_(certainty),
-      stop_(std::move(stop)),
-      crowns_(package, cell, further.quantities().canopy, further.azimuths(),
-              certainty_.bounds ? merging_for_bounds : CrownMerging(),
-              certainty_.bounds || certainty_.max_error ? no_pixel_merging : PixelMerging()) {
-  const Quantities& q = further.quantities();
-  if (q.svfaveg || q.directional_vegetation || q.sky_shares) hidden_.resize(further.azimuths().size());
+                             CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop)
+    : package_(package), cell_(cell), further_(further), certainty_(certainty), stop_(std::move(stop)) {
+  if (pixels == nullptr) return;
+  FARLOD_EXPECTS(!certainty.bounds && !certainty.max_error);
+  on_pixels_.emplace(*pixels, cell.cell);
+  knows_hidden_ = pixels->field.knows_solids();
+}
+
+CrownsOfCell& CanopyAnswers::crowns() {
+  if (!crowns_)
+    crowns_.emplace(package_, cell_, further_.quantities().canopy, further_.azimuths(),
+                    certainty_.bounds ? merging_for_bounds : CrownMerging(),
+                    certainty_.bounds || certainty_.max_error ? no_pixel_merging : PixelMerging());
+  return *crowns_;
+}
+
+void CanopyAnswers::make_room(std::size_t packets) {
+  const Quantities& q = further_.quantities();
+  const std::size_t azimuths = further_.azimuths().size();
+  answers_.assign(packets, Answers{});
+  shares_.assign(packets, CanopyShares{});
+  marched_.assign(packets, 0);
+  behind_sums_.resize(packets);
+  hidden_sums_.resize(packets);
+  behind_.resize(q.directional_vegetation ? packets * azimuths : 0);
+  hidden_.resize(q.svfaveg || q.directional_vegetation || q.sky_shares ? packets * azimuths : 0);
+}
+
+CanopyAnswers::Rows CanopyAnswers::rows_of(std::size_t packet) {
+  const std::size_t azimuths = further_.azimuths().size();
+  const auto part = [&](std::vector<PacketHorizon::Row>& rows) {
+    return rows.empty() ? std::span<PacketHorizon::Row>() : std::span(rows).subspan(packet * azimuths, azimuths);
+  };
+  return {part(behind_), part(hidden_)};
 }
 
 std::span<const CanopyAnswers::Answers> CanopyAnswers::evaluate(std::span<const SkyProfile> profiles,
                                                                 std::span<const ReceiverPacket> packets,
                                                                 std::span<const SkiesOfPacket> skies) {
   FARLOD_EXPECTS(skies.size() == packets.size());
-  answers_.assign(packets.size(), Answers{});
-  shares_.resize(packets.size());
-  const std::size_t azimuths = further_.quantities().directional_vegetation ? further_.azimuths().size() : 0;
-  behind_.resize(packets.size() * azimuths);
-  if (!crowns_.are_none()) crowns_.evaluate(profiles, packets, shares_, behind_);
-  for (std::size_t n = 0; n < packets.size(); ++n) {
-    if (crowns_.are_none())
-      for (std::size_t l = 0; l < packets[n].count; ++l) answers_[n][l].svf_total = skies[n][l].svf;
-    else
-      answers_[n] = of_packet(profiles[n], packets[n], skies[n], shares_[n], std::span(behind_).subspan(n * azimuths, azimuths));
-  }
+  make_room(packets.size());
+  if (on_pixels_) march(profiles, packets);
+  find_shares(profiles, packets);
+  for (std::size_t n = 0; n < packets.size(); ++n) answers_[n] = of_packet(n, profiles[n], packets[n], skies[n]);
   return answers_;
 }
 
-CanopyAnswers::Answers CanopyAnswers::of_packet(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                                const SkiesOfPacket& skies, const CanopyShares& shares,
-                                                std::span<const PacketHorizon::Row> behind) {
+void CanopyAnswers::march(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {
+  on_pixels_->evaluate(
+      profiles, packets,
+      {behind_sums_, hidden_sums_, behind_, knows_hidden_ ? std::span(hidden_) : std::span<PacketHorizon::Row>()}, marched_);
+  const auto lost = static_cast<float>(1.0 - transmissivity_of(on_pixels_->foliage(), further_.quantities().canopy));
+  for (std::size_t n = 0; n < packets.size(); ++n)
+    for (std::size_t l = 0; l < packets[n].count; ++l)
+      if (has_bit(marched_[n], l)) {
+        shares_[n].behind[l] = behind_sums_[n][l];
+        shares_[n].lost[l] = lost * behind_sums_[n][l];
+      }
+}
+
+void CanopyAnswers::find_shares(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {
+  if (!on_pixels_) {
+    if (!crowns().are_none()) crowns().evaluate(profiles, packets, shares_, behind_);
+    return;
+  }
+  some_behind_.resize(behind_.empty() ? 0 : further_.azimuths().size());
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    const std::uint32_t left = packets[n].lanes_in_use() & ~marched_[n];
+    if (left == 0 || crowns().are_none()) continue;
+    CanopyShares shares;
+    crowns().evaluate(profiles.subspan(n, 1), packets.subspan(n, 1), {&shares, 1}, some_behind_);
+    copy_lanes(shares.lost, left, shares_[n].lost);
+    copy_lanes(shares.behind, left, shares_[n].behind);
+    for (std::size_t k = 0; k < some_behind_.size(); ++k) copy_lanes(some_behind_[k], left, rows_of(n).behind[k]);
+  }
+}
+
+CanopyAnswers::Answers CanopyAnswers::of_packet(std::size_t packet, const SkyProfile& profile, const ReceiverPacket& receivers,
+                                                const SkiesOfPacket& skies) {
   Answers answers{};
-  const PacketHorizon::Lanes error = certainty_.bounds ? crowns_.most_error(profile, receivers) : PacketHorizon::Lanes{};
+  if (!on_pixels_ && crowns().are_none()) {
+    for (std::size_t l = 0; l < receivers.count; ++l) answers[l].svf_total = skies[l].svf;
+    return answers;
+  }
+  const PacketHorizon::Lanes error = certainty_.bounds ? crowns().most_error(profile, receivers) : PacketHorizon::Lanes{};
+  const CanopyShares& shares = shares_[packet];
   for (std::size_t l = 0; l < receivers.count; ++l)
     answers[l] = {{shares.lost[l], shares.behind[l]}, svf_total_of(skies[l], shares.lost[l], error[l])};
-  if (!crowns_.crowns().empty()) add_directions(profile, receivers, behind, answers);
+  add_directions(packet, profile, receivers, answers);
   if (!certainty_.max_error) return answers;
   count_by_name(profile, receivers, skies, too_wide(receivers, answers), answers);
   trace(receivers, skies, too_wide(receivers, answers), answers);
@@ -249,21 +299,32 @@ void CanopyAnswers::trace(const ReceiverPacket& receivers, const SkiesOfPacket& 
   }
 }
 
-void CanopyAnswers::add_directions(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                   std::span<const PacketHorizon::Row> behind, Answers& answers) {
-  if (!behind.empty())
-    add_halves(behind, &CanopyLoss::sky_of_half, 1.0 / static_cast<double>(further_.azimuths().size()), answers);
-  if (hidden_.empty()) return;
-  if (!occluder_) {
-    near_.emplace(near_scene(package_, cell_.cell));
-    occluder_.emplace(crowns_.crowns(), further_.quantities().canopy, stop_);
-  }
-  find_hidden_behind_crowns(profile, receivers, further_.azimuths(), {*near_, *occluder_}, stop_, hidden_);
+void CanopyAnswers::add_directions(std::size_t packet, const SkyProfile& profile, const ReceiverPacket& receivers,
+                                   Answers& answers) {
+  const double share = 1.0 / static_cast<double>(further_.azimuths().size());
+  const Rows rows = rows_of(packet);
+  if (!rows.behind.empty()) add_halves(rows.behind, &CanopyLoss::sky_of_half, share, answers);
+  if (rows.hidden.empty()) return;
+  if (!knows_hidden_ || marched_[packet] != receivers.lanes_in_use()) trace_hidden(packet, profile, receivers);
   SkyHalves::Sums sums{};
-  for (const PacketHorizon::Row& row : hidden_)
+  for (const PacketHorizon::Row& row : rows.hidden)
     for (std::size_t l = 0; l < receivers.count; ++l) sums[l] += static_cast<double>(row[l]);
-  for (std::size_t l = 0; l < receivers.count; ++l) answers[l].loss.building = static_cast<float>(sums[l]);
-  if (!behind.empty()) add_halves(hidden_, &CanopyLoss::building_of_half, 1.0, answers);
+  for (std::size_t l = 0; l < receivers.count; ++l) answers[l].loss.building = static_cast<float>(share * sums[l]);
+  if (!rows.behind.empty()) add_halves(rows.hidden, &CanopyLoss::building_of_half, share, answers);
+}
+
+void CanopyAnswers::trace_hidden(std::size_t packet, const SkyProfile& profile, const ReceiverPacket& receivers) {
+  const std::span<PacketHorizon::Row> hidden = rows_of(packet).hidden;
+  const std::uint32_t left = knows_hidden_ ? receivers.lanes_in_use() & ~marched_[packet] : receivers.lanes_in_use();
+  some_hidden_.assign(hidden.size(), PacketHorizon::Row{});
+  if (!crowns().crowns().empty()) {
+    if (!occluder_) {
+      near_.emplace(near_scene(package_, cell_.cell));
+      occluder_.emplace(crowns().crowns(), further_.quantities().canopy, stop_);
+    }
+    find_hidden_behind_crowns(profile, receivers, further_.azimuths(), {*near_, *occluder_}, stop_, some_hidden_);
+  }
+  for (std::size_t k = 0; k < hidden.size(); ++k) copy_lanes(some_hidden_[k], left, hidden[k]);
 }
 
 void CanopyAnswers::add_halves(std::span<const PacketHorizon::Row> terms,

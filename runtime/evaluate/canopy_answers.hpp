@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "canopy/canopy_on_pixels.hpp"
 #include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_answers.hpp"
@@ -62,9 +63,10 @@ class CanopyAnswers {
   /// An answer for each receiver of a packet.
   using Answers = std::array<CanopyAnswer, ReceiverPacket::lanes>;
 
-  /// All must outlive it.
+  /// All must outlive it. Where `pixels` are given, which are all crowns, receivers at their centres are answered by marches over
+  /// them; there are no bounds then.
   CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
-                CanopyCertainty certainty, std::stop_token stop);
+                CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);
 
   /// The answers of packets near each other, valid until the next call. CanopyLoss::building, which takes rays, is 0 where no
   /// quantity needs it.
@@ -74,11 +76,21 @@ class CanopyAnswers {
   [[nodiscard]] std::uint64_t retraced_rays() const { return retraced_rays_; }
 
  private:
-  [[nodiscard]] Answers of_packet(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies,
-                                  const CanopyShares& shares, std::span<const PacketHorizon::Row> behind);
+  /// What is wanted of each azimuth of a packet: rows of the sky and of solid things behind crowns, or nothing.
+  struct Rows {
+    std::span<PacketHorizon::Row> behind, hidden;
+  };
+  [[nodiscard]] Rows rows_of(std::size_t packet);
+  [[nodiscard]] CrownsOfCell& crowns();
+  void make_room(std::size_t packets);
+  void march(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets);
+  /// For the receivers that no march answers.
+  void find_shares(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets);
+  [[nodiscard]] Answers of_packet(std::size_t packet, const SkyProfile& profile, const ReceiverPacket& receivers,
+                                  const SkiesOfPacket& skies);
   /// What of the sky and of solid things lies behind crowns in each half of the sky, and in all, as far as it is asked for.
-  void add_directions(const SkyProfile& profile, const ReceiverPacket& receivers, std::span<const PacketHorizon::Row> behind,
-                      Answers& answers);
+  void add_directions(std::size_t packet, const SkyProfile& profile, const ReceiverPacket& receivers, Answers& answers);
+  void trace_hidden(std::size_t packet, const SkyProfile& profile, const ReceiverPacket& receivers);
   /// Sums over the azimuths, for CanopyLoss.
   void add_halves(std::span<const PacketHorizon::Row> terms, std::array<float, SkyHalves::count> CanopyLoss::*of_half,
                   double share, Answers& answers) const;
@@ -93,9 +105,14 @@ class CanopyAnswers {
   const FurtherQuantities& further_;
   CanopyCertainty certainty_;
   std::stop_token stop_;
-  CrownsOfCell crowns_;
-  std::vector<PacketHorizon::Row> behind_, hidden_;  ///< at each azimuth: sky of all packets, and what is solid, behind crowns
-  std::vector<CanopyShares> shares_;
+  std::optional<CanopyOnPixels> on_pixels_;
+  std::optional<CrownsOfCell> crowns_;  ///< made when first needed
+  bool knows_hidden_ = false;           ///< whether marches tell what is hidden
+  std::vector<std::uint32_t> marched_;  ///< of each packet: a bit for each receiver that marches answer
+  std::vector<CanopyShares> shares_;    ///< of each packet
+  std::vector<PacketHorizon::Lanes> behind_sums_, hidden_sums_;
+  std::vector<PacketHorizon::Row> behind_, hidden_;            ///< at each azimuth, of all packets: Rows
+  std::vector<PacketHorizon::Row> some_behind_, some_hidden_;  ///< of one
   std::vector<Answers> answers_;
   std::optional<CrownsOfCell> by_name_;  ///< made when first needed, as the next ones, which are for rays
   std::optional<Occluder> near_;

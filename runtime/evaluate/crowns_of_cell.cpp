@@ -46,11 +46,6 @@ std::vector<std::uint32_t> split(const ReceiverPacket& receivers, std::uint32_t 
   return groups;
 }
 
-void copy_lanes(const PacketHorizon::Lanes& from, std::uint32_t some, PacketHorizon::Lanes& to) {
-  for (std::size_t l = 0; l < packet_lanes; ++l)
-    if ((some >> l & 1U) != 0) to[l] = from[l];
-}
-
 float lowest_z(const CellReceivers& cell) {
   float lowest = std::numeric_limits<float>::infinity();
   for (const Receiver& r : cell.receivers) lowest = std::min(lowest, r.p_cell.z);

@@ -170,7 +170,7 @@ class ProfileAtAzimuth {
 void trace_profile(const AzimuthSampling& azimuths, const RayScene& scene, const ReceiverPacket& receivers, SkyProfile& profile,
                    const std::stop_token& stop) {
   const RayOrigins origins = origins_of(receivers, scene.solid.scene_from_cell_m);
-  const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << receivers.count) - 1);
+  const auto wanted = receivers.lanes_in_use();
   for (SkyProfile::Rows* rows : {&profile.gap_from, &profile.gap_to, &profile.gap_share, &profile.sky, &profile.solid_sky})
     rows->clear();
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
@@ -235,8 +235,9 @@ void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizo
   near_sky_ = std::make_unique<NearSky>(package, cell_, far, quantities_.azimuths(), gaps);
 }
 
-void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop) {
-  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, certainty, std::move(stop));
+void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels,
+                                   std::stop_token stop) {
+  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, certainty, pixels, std::move(stop));
 }
 
 void FurtherAnswers::find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,

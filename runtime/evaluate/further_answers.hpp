@@ -37,7 +37,7 @@ class FurtherAnswers {
   /// receiver of the cell.
   void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
   /// The values of canopies are found for each group; otherwise their places are left out. store() then needs what is drawn.
-  void draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop);
+  void draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
   /// How many rays were traced against the whole city so far.
   [[nodiscard]] std::uint64_t retraced_rays() const { return canopies_ ? canopies_->retraced_rays() : 0; }

@@ -66,7 +66,12 @@ class MethodWithHorizons : public SkyMethod {
   /// stores svf. What is asked for besides is stored afterwards.
   template <class OnPacket>
   void draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, const OnPacket& on_packet) const {
-    draw(geometry, nullptr, packet_order(cell.receivers, evaluation_.stop), cell, answers, on_packet);
+    const CanopyCity* const canopy = evaluation_.canopy_pixels(cell, answers);
+    const std::stop_token& stop = evaluation_.stop;
+    draw(geometry, nullptr,
+         canopy == nullptr ? packet_order(cell.receivers, stop)
+                           : order_on_pixels(canopy->lattice, evaluation_.package.grid(), cell.cell, cell.receivers, stop),
+         cell, answers, on_packet);
   }
   /// The same for the packets of an order, whose horizons are those of pixels unless these are null.
   template <class OnPacket>
@@ -91,11 +96,12 @@ class MethodWithHorizons : public SkyMethod {
     certainty.directions = &evaluation_.directions;
     return certainty;
   }
-  void begin_further(FurtherAnswers& further, HorizonEngine& engine, const FarHorizon& far) const {
+  void begin_further(FurtherAnswers& further, HorizonEngine& engine, const FarHorizon& far, const CanopyCity* canopy) const {
     const FurtherQuantities& wanted = evaluation_.further;
     if (!wanted.empty()) further.listen_to(engine);
     if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far, gap_settings());
-    if (wanted.canopy_columns().count > 0) further.draw_canopies(evaluation_.package, certainty_of_canopies(), evaluation_.stop);
+    if (wanted.canopy_columns().count > 0)
+      further.draw_canopies(evaluation_.package, certainty_of_canopies(), canopy, evaluation_.stop);
   }
 };
 
@@ -110,7 +116,7 @@ void MethodWithHorizons::draw(CellGeometry& geometry, PixelHorizon* pixels, cons
   const double share = e.settings.further.svf_total ? 0.5 : 1.0;
   if (e.settings.allowed_error) engine.keep({share * *e.settings.allowed_error, *e.city, cell.cell, e.stop});
   FurtherAnswers further(e.further, cell, answers);
-  begin_further(further, engine, geometry.far);
+  begin_further(further, engine, geometry.far, e.canopy_pixels(cell, answers));
   std::vector<PacketAnswer> of_packets;
   for_each_group(cell.receivers, order, [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
     throw_if_cancelled(e.stop);

@@ -63,6 +63,33 @@ Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_t
       city(std::move(c)) {
   FARLOD_EXPECTS(!s.allowed_error || s.engine == Engine::exact || s.engine == Engine::near_only ||
                  !p.manifest().far_map.is_box());
+  if (further.canopy_columns().count == 0 || s.further.canopy.rule != CanopyRule::once || !p.has_crowns()) return;
+  const package::CrownCellRecord& first = p.crowns().cells().front();
+  canopy_lattice_ = CanopyLattice::of(p.grid(), {first.i, first.j}, p.crowns().crowns_of(first).front());
+}
+
+const CanopyCity* Evaluation::canopy_pixels(const CellReceivers& cell, const SkyAnswers& answers) const {
+  if (wants_bounds(answers) || !canopy_lattice_) return nullptr;
+  const auto is_at_centre = [&](const Receiver& r) {
+    return canopy_lattice_->centre_at(package.grid(), cell.cell, r.p_cell).has_value();
+  };
+  if (std::ranges::none_of(cell.receivers, is_at_centre)) return nullptr;
+  std::call_once(canopy_->once, [this] { make_canopy_city(); });
+  return canopy_->city ? &*canopy_->city : nullptr;
+}
+
+void Evaluation::make_canopy_city() const {
+  std::vector<CellCrowns> crowns;
+  for (const package::CrownCellRecord& record : package.crowns().cells())
+    crowns.push_back({{record.i, record.j}, package.crowns().crowns_of(record)});
+  const Quantities& q = settings.further;
+  const bool wants_solids = q.svfaveg || q.directional_vegetation || q.sky_shares;
+  const PixelHeightsFile* const heights = wants_solids ? package.pixel_heights() : nullptr;
+  std::optional<CanopyField> field = CanopyField::of(*canopy_lattice_, package.manifest(), crowns,
+                                                     heights == nullptr ? std::span<const float>() : heights->height_m());
+  package.crowns().let_go();
+  if (heights != nullptr) heights->let_go();
+  if (field) canopy_->city.emplace(package.manifest(), *canopy_lattice_, std::move(*field), further.azimuths());
 }
 
 namespace {

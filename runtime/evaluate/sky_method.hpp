@@ -11,6 +11,7 @@
 #include <stop_token>
 #include <string>
 
+#include "canopy/canopy_field.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_answers.hpp"
 #include "evaluate/sky_directions.hpp"
@@ -52,6 +53,9 @@ struct Evaluation {
   /// The pixels that the city is, where horizons may be found by marching over them: all that is asked for has no bounds, and
   /// nothing lies beyond the raster. Null elsewhere. Thread-safe.
   [[nodiscard]] const PixelCity* pixels(const SkyAnswers& answers) const;
+  /// The pixels that all crowns are, where the sky behind them may be found by marching over them from some of these receivers of
+  /// a cell: all that is asked for has no bounds, and crowns count by the rule `once`. Null elsewhere. Thread-safe.
+  [[nodiscard]] const CanopyCity* canopy_pixels(const CellReceivers& cell, const SkyAnswers& answers) const;
   std::unique_ptr<EvaluationCounter> counter = std::make_unique<EvaluationCounter>();
 
   /// Whether bounds of the true values are asked for.
@@ -65,7 +69,14 @@ struct Evaluation {
     std::once_flag once;
     std::optional<PixelCity> city;
   };
+  struct CanopyOnDemand {
+    std::once_flag once;
+    std::optional<CanopyCity> city;
+  };
+  void make_canopy_city() const;
   std::unique_ptr<PixelsOnDemand> pixels_ = std::make_unique<PixelsOnDemand>();
+  std::optional<CanopyLattice> canopy_lattice_;  ///< where rays may march
+  std::unique_ptr<CanopyOnDemand> canopy_ = std::make_unique<CanopyOnDemand>();
 };
 
 /// A way to answer the receivers of a cell. Thread-safe.

@@ -11,10 +11,6 @@
 namespace farlod {
 namespace {
 
-/// A segment reaches over its length, a pixel at either end, and the receivers of a block; and begins anywhere in a square.
-constexpr HighestPixels::Around around_step{2, 8, 5}, around_long_step{5, 4, 4};
-static_assert((1 << 2) * 8 >= far_step + 3 + 15 + 3 && (1 << 2) * 5 >= far_step + 3 + 3 + 3);
-static_assert((1 << 5) * 4 >= long_step + 3 + 15 + 31);
 constexpr float least_height_m = 1e-6F;
 constexpr std::uint32_t flags = JoinedPixels::east | JoinedPixels::north;
 
@@ -80,12 +76,12 @@ PixelField::PixelField(const package::SurfacePixels& pixels, std::span<const flo
       rows_(static_cast<std::int32_t>(pixels.rows)),
       stride_(columns_ + 2 * columns_aside),
       height_m_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_ + 2 * rows_aside), no_height_m),
-      around_(nullptr, 0, 1, 0, around_step),
+      around_(nullptr, 0, 1, 0, around_far_step),
       long_around_(nullptr, 0, 1, 0, around_long_step) {
   fill(height_m, joined);
   for (std::int32_t n = 0; n < 2 * (std::max(columns_, rows_) + 2 * columns_aside); ++n)
     per_number_.push_back(n == 0 ? 0.0F : 1.0F / static_cast<float>(n));
-  around_ = {first(), stride_, columns_, rows_, around_step};
+  around_ = {first(), stride_, columns_, rows_, around_far_step};
   long_around_ = {first(), stride_, columns_, rows_, around_long_step};
 }
 
@@ -135,7 +131,7 @@ void PixelWindow::look_at(std::int32_t column, std::int32_t row) {
   is_torn_ = false;
   for (std::int32_t y = 0; y < rows; ++y)
     for (std::int32_t x = 0; x < columns; ++x) fill(x, y);
-  highest_.emplace(planes_.data(), columns, columns, rows, around_step);
+  highest_.emplace(planes_.data(), columns, columns, rows, around_far_step);
 }
 
 void PixelWindow::fill(std::int32_t x, std::int32_t y) {

@@ -34,6 +34,11 @@ class HighestPixels {
   std::vector<float> height_m_;
 };
 
+/// A segment reaches over its length, a pixel at either end, and the receivers of a block; and begins anywhere in a square.
+inline constexpr HighestPixels::Around around_far_step{2, 8, 5}, around_long_step{5, 4, 4};
+static_assert((1 << 2) * 8 >= far_step + 3 + 15 + 3 && (1 << 2) * 5 >= far_step + 3 + 3 + 3);
+static_assert((1 << 5) * 4 >= long_step + 3 + 15 + 31);
+
 /// How many sides between two pixels are walls, or the ends of what has heights. What is joined is that of PixelHeightsFile.
 [[nodiscard]] double walls_per_pixel(const package::SurfacePixels& pixels, std::span<const std::uint8_t> joined);
 

@@ -38,6 +38,8 @@ struct ReceiverPacket {
     for (std::size_t l = count; l < lanes; ++l) set(l, r);
     ++count;
   }
+  /// A bit for each receiver.
+  [[nodiscard]] std::uint32_t lanes_in_use() const { return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1); }
   [[nodiscard]] float lowest_z() const { return *std::min_element(z.begin(), z.end()); }
   /// All of the normal counts: its z is 1 also where it leans by .0002 rad, which changes a sky view factor by up to .0001.
   [[nodiscard]] bool looks_straight_up(std::size_t lane) const {
@@ -61,6 +63,12 @@ struct ReceiverPacket {
 };
 
 inline constexpr std::size_t packet_lanes = ReceiverPacket::lanes;
+
+/// Takes over the numbers of some receivers, a bit each.
+inline void copy_lanes(const ReceiverPacket::Lanes& from, std::uint32_t some, ReceiverPacket::Lanes& to) {
+  for (std::size_t l = 0; l < packet_lanes; ++l)
+    if (has_bit(some, l)) to[l] = from[l];
+}
 
 /// An upright box around receivers: the centre of its plan, half its sides, and its lowest and highest z.
 struct CenteredBox {

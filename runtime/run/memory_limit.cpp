@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/run_settings.hpp"
+#include "canopy/canopy_field.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -37,6 +38,8 @@ constexpr double bounds_azimuth_bytes = 500 + 15 * 64;                // Certain
 constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
 // PixelCity: a pixel; at each azimuth, its path near a receiver, and each pixel farther along the sides of the raster
 constexpr double pixel_bytes = 4.5, path_bytes = 6000, path_step_bytes = 4;
+// CanopyCity: a pixel, and a step of the path at an azimuth
+constexpr double canopy_pixel_bytes = 14, canopy_step_bytes = 24;
 constexpr double drawn_azimuth_bytes = packets_in_group * 64;  // PixelHorizon
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;            // RayEngine, with the directions in the order of their azimuths
 
@@ -84,6 +87,16 @@ double bytes_of_pixels(const package::Manifest& manifest, const ResolvedSettings
 }
 
 double crowns_of(const package::Manifest& manifest) { return static_cast<double>(manifest.canopy->crowns()); }
+
+/// CanopyCity: where all crowns are pixels, and lie close to each other.
+double bytes_of_canopy_pixels(const package::Manifest& manifest, const ResolvedSettings& settings) {
+  const Quantities& further = settings.sky.further;
+  const auto is_pixel = static_cast<std::size_t>(CrownShape::prism);
+  if (!further.any_of_canopies() || further.canopy.rule != CanopyRule::once) return 0.0;
+  if (manifest.canopy->crowns_of_shape[is_pixel] != manifest.canopy->crowns()) return 0.0;
+  const double pixels = std::min(CanopyField::most_pixels, CanopyField::most_pixels_per_crown * crowns_of(manifest));
+  return canopy_pixel_bytes * pixels + static_cast<double>(settings.sky.azimuths) * canopy_step_bytes * std::sqrt(pixels);
+}
 
 /// The scene, and the directions of a verification, which are others.
 double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSettings& settings) {
@@ -144,8 +157,8 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * of_receiver;
   const bool has_crowns = uses_crowns(manifest, settings);
   const double of_thread = thread_bytes + (has_crowns ? bytes_of_canopies(manifest, settings) : 0.0);
-  const double of_blocks =
-      static_cast<double>(bytes_of_blocks_at_work(manifest)) + (has_crowns ? bytes_of_crowns_at_work(manifest) : 0.0);
+  const double of_blocks = static_cast<double>(bytes_of_blocks_at_work(manifest)) +
+                           (has_crowns ? bytes_of_crowns_at_work(manifest) + bytes_of_canopy_pixels(manifest, settings) : 0.0);
   const double bytes = program_bytes + threads * of_thread + needs.results + static_cast<double>(settings.run.caller_bytes) +
                        in_flight + bytes_of_samples(manifest, settings) + bytes_of_pixels(manifest, settings) + of_blocks;
   require_below_limit(bytes, settings.run, "this run",
