@@ -115,7 +115,7 @@ struct CanopyRay {
 };
 
 /// What is behind crowns at one azimuth. The room is written to, through the union.
-// NOLINTNEXTLINE(readability-non-const-parameter)
+// NOLINTBEGIN(readability-non-const-parameter)
 template <bool is_below>
 FARLOD_LANES Floats march_one(const CanopyFieldView& field, const CanopyPath& path, const SkyWindow& above, const CanopyRow& row,
                               float* room) {
@@ -144,6 +144,7 @@ FARLOD_LANES Floats march_one(const CanopyFieldView& field, const CanopyPath& pa
   });
   return behind;
 }
+// NOLINTEND(readability-non-const-parameter)
 
 /// What all azimuths give, for the receivers of a row.
 struct CanopySums {

@@ -12,8 +12,7 @@ namespace {
 
 /// Edge of the squares of pixels whose receivers are a group: a group has no more rows than are marched at once.
 constexpr std::int32_t square_edge = canopy_square;
-static_assert(square_edge == packet_lanes && square_edge == most_canopy_rows &&
-              canopy_square * canopy_square / packet_lanes == packets_in_group);
+static_assert(square_edge == packet_lanes && square_edge == most_canopy_rows && packets_in_group == packet_lanes);
 
 constexpr std::int32_t square_of(std::int32_t pixel) {
   return pixel >= 0 ? pixel / square_edge : -((square_edge - 1 - pixel) / square_edge);

@@ -123,8 +123,9 @@ TEST_F(SolweigFolder, EachPatchIsARayButWhereItGrazes) {
       ASSERT_EQ(values, expected) << "pixel " << n << ", patch " << k << ": " << values.building << values.vegetation
                                   << values.vegetation_before_building;
       ++compared;
-      blocked += expected.building == 0, crowns += expected.vegetation == 0;
-      crowns_before += expected.vegetation_before_building == 0;
+      if (expected.building == 0) ++blocked;
+      if (expected.vegetation == 0) ++crowns;
+      if (expected.vegetation_before_building == 0) ++crowns_before;
     }
   }
   EXPECT_GE(pixels, 200U);
@@ -194,8 +195,9 @@ TEST_F(SolweigFolder, HasTheHeightsOfBlocksAndCrowns) {
     // The sides of a spheroid are steep
     ASSERT_NEAR(cdsm.values[n].value_or(-9.0), top_m, 0.2) << n;
     ASSERT_NEAR(tdsm.values[n].value_or(-9.0), bottom_m, 0.2) << n;
-    crowns += top_m > 0.0, walls += wall.values[n].value_or(0.0) > 0.0;
+    if (top_m > 0.0) ++crowns;
     if (const double wall_m = wall.values[n].value_or(0.0); wall_m > 0.0) {
+      ++walls;
       EXPECT_GE(wall_m, 3.0);
     }
   }
@@ -216,7 +218,7 @@ TEST_F(SolweigFolder, HasWallsThatDoNotDependOnWhereTilesMeet) {
     // An aspect is made of pixels up to 4 away, and of their neighbours
     for (std::size_t n = 5 * part.columns; n < part.values.size(); ++n) {
       ASSERT_EQ(part.values[n], all.values[n + 100 * all.columns]) << name << ' ' << n;
-      walls += part.values[n].value_or(0.0) > 0.0;
+      if (part.values[n].value_or(0.0) > 0.0) ++walls;
     }
   }
   EXPECT_GT(walls, 500U);
