@@ -97,13 +97,13 @@ struct CanopyRay {
   /// Segments are left out whose crowns are all hidden: first long ones, then short ones. What is solid counts everywhere.
   FARLOD_LANES void march(const CanopyPath& path) {
     const std::size_t count = in_long * long_segments(path);
+    bool is_left_out = false;
     for (std::size_t n = 0; n < count; ++n) {
       const CanopySegment& s = path.segments[n];
+      // Receivers are asked at each segment, also where nobody marches: who is left must not depend on others
       if (!go_on(s.per_distance)) return;
-      if (!is_below && n % in_long == 0 && are_hidden(field.long_highest, path.long_segments[n / in_long])) {
-        n += in_long - 1;
-        continue;
-      }
+      if (!is_below && n % in_long == 0) is_left_out = are_hidden(field.long_highest, path.long_segments[n / in_long]);
+      if (is_left_out) continue;
       const bool has_crowns = !are_hidden(field.highest, s);
       if (!is_below && !has_crowns) continue;
       for (std::uint32_t c = n == 0 ? 0 : path.segments[n - 1].end; c < s.end; ++c) {
