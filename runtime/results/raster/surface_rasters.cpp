@@ -94,7 +94,7 @@ class SurfaceRasters {
   void write(std::size_t tile_row) {
     const Strip strip = strip_of(frame_, tile_row);
     const PlanHeights heights = plan_heights(*frame_.package, strip.plan, run_);
-    const PixelHeights surface{strip.plan.columns, strip.plan.rows, strip.plan.step_m, heights.highest_m};
+    const WallSurface surface{strip.plan.columns, strip.plan.rows, strip.plan.step_m, heights.highest_m};
     const std::vector<float> wall_m = wall_heights(surface);
     write(tile_row, strip, "dsm", heights.highest_m);
     write(tile_row, strip, "dem", heights.ground_m);

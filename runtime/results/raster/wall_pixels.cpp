@@ -60,7 +60,7 @@ double middle_of_longest_run(const std::array<bool, line_count>& is_in) {
 /// A pixel of a surface, and those around it.
 class WallPixel {
  public:
-  WallPixel(const PixelHeights& surface, std::span<const float> wall_m, std::size_t row, std::size_t column)
+  WallPixel(const WallSurface& surface, std::span<const float> wall_m, std::size_t row, std::size_t column)
       : surface_(surface), wall_m_(wall_m), row_(static_cast<int>(row)), column_(static_cast<int>(column)) {}
 
   [[nodiscard]] float aspect_deg(const WallLines& lines) const {
@@ -99,14 +99,14 @@ class WallPixel {
     return static_cast<std::size_t>(row_ + o.row) * surface_.columns + static_cast<std::size_t>(column_ + o.column);
   }
 
-  const PixelHeights& surface_;
+  const WallSurface& surface_;
   std::span<const float> wall_m_;
   int row_, column_;
 };
 
 }  // namespace
 
-std::vector<float> wall_heights(const PixelHeights& surface) {
+std::vector<float> wall_heights(const WallSurface& surface) {
   std::vector<float> wall_m(surface.columns * surface.rows, 0.0F);
   for (std::size_t row = 1; row + 1 < surface.rows; ++row)
     for (std::size_t column = 1; column + 1 < surface.columns; ++column) {
@@ -127,7 +127,7 @@ std::size_t aspect_reach(double step_m) {
   return std::max<std::size_t>(pixels / 2, 1);
 }
 
-std::vector<float> wall_aspects(const PixelHeights& surface, std::span<const float> wall_m) {
+std::vector<float> wall_aspects(const WallSurface& surface, std::span<const float> wall_m) {
   const WallLines lines = lines_of(static_cast<int>(aspect_reach(surface.step_m)));
   std::vector<float> aspect_deg(wall_m.size(), 0.0F);
   oneapi::tbb::parallel_for(std::size_t{0}, surface.rows, [&](std::size_t row) {

@@ -9,7 +9,7 @@
 namespace farlod {
 
 /// Heights of a surface at pixels, row by row from the north; NaN where there is none.
-struct PixelHeights {
+struct WallSurface {
   std::size_t columns = 0, rows = 0;
   double step_m = 1.0;
   std::span<const float> height_m;
@@ -23,7 +23,7 @@ inline constexpr float least_wall_m = 3.0F;
 /// Walls as UMEP's "Wall Height and Aspect" has them: a wall stands on a pixel beside which, in the row or the column, there is a
 /// higher one; its height is what the highest of the four is above the pixel. 0 where that is less than least_wall_m, on the
 /// first and last rows and columns, and where there is no surface.
-[[nodiscard]] std::vector<float> wall_heights(const PixelHeights& surface);
+[[nodiscard]] std::vector<float> wall_heights(const WallSurface& surface);
 
 /// How far from a pixel its aspect depends on others, in pixels: UMEP looks at 9 m, three pixels at least.
 [[nodiscard]] std::size_t aspect_reach(double step_m);
@@ -33,6 +33,6 @@ inline constexpr float least_wall_m = 3.0F;
 /// the higher one is behind it. `wall_m` are wall_heights().
 ///
 /// Several lines beside each other have as many walls. The middle one is taken, where UMEP takes the first, up to 7° off.
-[[nodiscard]] std::vector<float> wall_aspects(const PixelHeights& surface, std::span<const float> wall_m);
+[[nodiscard]] std::vector<float> wall_aspects(const WallSurface& surface, std::span<const float> wall_m);
 
 }  // namespace farlod

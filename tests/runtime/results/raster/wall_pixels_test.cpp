@@ -25,7 +25,7 @@ struct Walls {
     for (std::size_t row = 0; row < edge; ++row)
       for (std::size_t column = 0; column < edge; ++column)
         surface_m.push_back(static_cast<float>(height_of(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5)));
-    const PixelHeights surface{edge, edge, step_m, surface_m};
+    const WallSurface surface{edge, edge, step_m, surface_m};
     height_m = wall_heights(surface);
     aspect_deg = wall_aspects(surface, height_m);
   }
