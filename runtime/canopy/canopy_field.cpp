@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "farlod/box.hpp"
+#include "package/pixel_heights.hpp"
 
 namespace farlod {
 namespace {
@@ -88,10 +89,14 @@ class PixelWalk {
   /// The pixel that the ray is in; then it goes on to the next. Through a corner it goes to the opposite one.
   CanopyCrossing pass() {
     const double left = std::min(to_x_, to_y_);
-    const CanopyCrossing crossing{static_cast<std::int32_t>(pixel_), per(entered_), per(left)};
+    const CanopyCrossing crossing{static_cast<std::int32_t>(pixel_), per(entered_), per(left), joined_before_, joined_here_};
     const bool crosses_x = to_x_ <= left + at_a_corner, crosses_y = to_y_ <= left + at_a_corner;
     if (crosses_x) to_x_ += per_x_, pixel_ += step_x_;
     if (crosses_y) to_y_ += per_y_, pixel_ += step_y_;
+    const int flag = crosses_x && crosses_y ? 0 : crosses_x ? JoinedPixels::east : JoinedPixels::north;
+    const bool goes_up = crosses_x ? step_x_ > 0 : step_y_ > 0;
+    joined_before_ = goes_up ? flag : 0;
+    joined_here_ = goes_up ? 0 : flag;
     entered_ = left;
     return crossing;
   }
@@ -104,6 +109,7 @@ class PixelWalk {
 
   double pixel_m_, per_x_, per_y_, to_x_, to_y_, entered_ = 0.0;
   std::ptrdiff_t step_x_, step_y_, pixel_ = 0;
+  std::int32_t joined_before_ = 0, joined_here_ = 0;
 };
 
 CanopySegment segment_between(Point2d direction, double pixel_m, double from, double to) {
@@ -156,14 +162,14 @@ void CanopyPaths::add_segments(Point2d direction, double pixel_m, std::ptrdiff_t
 }
 
 std::optional<CanopyField> CanopyField::of(const CanopyLattice& lattice, const package::Manifest& manifest,
-                                           std::span<const CellCrowns> crowns, std::span<const float> height_m) {
+                                           std::span<const CellCrowns> crowns, const SolidPixels& solids) {
   const PixelRange range = range_of(lattice, manifest.grid);
   double count = 0.0;
   for (const CellCrowns& of_cell : crowns) count += static_cast<double>(of_cell.crowns.size());
   if (range.columns() * range.rows() > std::min(most_pixels, most_pixels_per_crown * count)) return std::nullopt;
   CanopyField field(lattice, manifest.grid);
   if (!field.fill(lattice, manifest.grid, crowns)) return std::nullopt;
-  if (!height_m.empty()) field.fill_solids(lattice, manifest, height_m);
+  if (!solids.height_m.empty()) field.fill_solids(lattice, manifest, solids);
   return field;
 }
 
@@ -201,17 +207,18 @@ bool CanopyField::fill(const CanopyLattice& lattice, const Grid& grid, std::span
   return true;
 }
 
-void CanopyField::fill_solids(const CanopyLattice& lattice, const package::Manifest& m, std::span<const float> height_m) {
+void CanopyField::fill_solids(const CanopyLattice& lattice, const package::Manifest& m, const SolidPixels& solids) {
   const package::SurfacePixels& pixels = *m.pixels;
   const Point2d south_west = pixels.north_west_m - m.origin_m + Point2d{0.5 * pixels.step_m, (0.5 - pixels.rows) * pixels.step_m};
   const std::optional<CanopyLattice::Place> first = lattice.centre_at(south_west);
   if (!first || std::abs(pixels.step_m / lattice.pixel_m() - 1.0) * std::max(pixels.columns, pixels.rows) > most_aside) return;
-  solid_m_.assign(top_m_.size(), no_height_m);
+  solid_m_.assign(top_m_.size(), flagged_height(no_height_m, 0));
   for (std::uint32_t row = 0, n = 0; row < pixels.rows; ++row)
     for (std::uint32_t column = 0; column < pixels.columns; ++column, ++n) {
       const auto pixel =
           in_field({first->column + static_cast<std::int32_t>(column), first->row + static_cast<std::int32_t>(row)});
-      if (pixel && !std::isnan(height_m[n])) solid_m_[index_of(*pixel)] = height_m[n];
+      if (pixel && !std::isnan(solids.height_m[n]))
+        solid_m_[index_of(*pixel)] = flagged_height(solids.height_m[n], solids.joined[n]);
     }
 }
 

@@ -23,6 +23,12 @@ struct CellCrowns {
   std::span<const Crown> crowns;
 };
 
+/// What PixelHeightsFile has of the pixels of a city that is a raster, or nothing.
+struct SolidPixels {
+  std::span<const float> height_m = {};
+  std::span<const std::uint8_t> joined = {};
+};
+
 /// Where the pixels of a canopy raster lie: squares along the axes of the city frame.
 class CanopyLattice {
  public:
@@ -84,9 +90,9 @@ class CanopyField {
   static constexpr double most_pixels = 1 << 26, most_pixels_per_crown = 32.0;
 
   /// Nothing, unless all crowns are pixels of the lattice, each once, and not too far from each other. What is solid is known if
-  /// the city is a raster with the same pixels, whose heights these are (PixelHeightsFile); or none.
+  /// the city is a raster with the same pixels, which are these.
   [[nodiscard]] static std::optional<CanopyField> of(const CanopyLattice& lattice, const package::Manifest& manifest,
-                                                     std::span<const CellCrowns> crowns, std::span<const float> height_m);
+                                                     std::span<const CellCrowns> crowns, const SolidPixels& solids);
 
   [[nodiscard]] CanopyFieldView view() const;
   [[nodiscard]] bool knows_solids() const { return !solid_m_.empty(); }
@@ -99,7 +105,7 @@ class CanopyField {
  private:
   CanopyField(const CanopyLattice& lattice, const Grid& grid);
   [[nodiscard]] bool fill(const CanopyLattice& lattice, const Grid& grid, std::span<const CellCrowns> crowns);
-  void fill_solids(const CanopyLattice& lattice, const package::Manifest& manifest, std::span<const float> height_m);
+  void fill_solids(const CanopyLattice& lattice, const package::Manifest& manifest, const SolidPixels& solids);
   [[nodiscard]] std::size_t index_of(const CanopyLattice::Place& in_field) const {
     return static_cast<std::size_t>((in_field.row + aside) * stride_ + in_field.column + aside);
   }

@@ -14,10 +14,12 @@
 /// south, of one stride. docs/concepts.md, "Canopies of rasters".
 namespace farlod {
 
-/// A pixel that a ray passes, counted from the receiver's, and 1 / distance of where it is entered and left, in 1/m.
+/// A pixel that a ray passes, counted from the receiver's, and 1 / distance of where it is entered and left, in 1/m. It is joined
+/// with the pixel before if that one, or this one, has these JoinedPixels; through a corner it is not.
 struct CanopyCrossing {
   std::int32_t pixel;
   float per_entered, per_left;
+  std::int32_t joined_before, joined_here;
 };
 /// What is entered between two distances: up to this end, from that of the segment before. Its pixels are read from (x_low,
 /// y_low) on, no more than HighestAround looks at.
@@ -37,7 +39,8 @@ struct CanopyPath {
 /// All pixels of a canopy, and room around them.
 struct CanopyFieldView {
   const float *top_m, *bottom_m;  ///< of the first pixel; the top is `no_height_m` where there is no crown
-  const float* solid_m;           ///< what is no crown, where it is known: a block for each pixel, in the same places. Or null
+  /// What is no crown, where it is known, in the same places, as PixelFieldView has it. Or null
+  const float* solid_m;
   std::ptrdiff_t stride;
   std::int32_t columns, rows;
   HighestAround highest, long_highest;  ///< tops

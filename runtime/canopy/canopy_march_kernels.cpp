@@ -15,8 +15,6 @@
 namespace farlod {
 namespace {
 
-/// As StepRule has it. What it decides here is what of a crown is hidden by a slope, and not by its sky.
-constexpr float least_step_m = 2.0F;
 constexpr std::int32_t row_end = static_cast<std::int32_t>(lane_count);
 
 /// The highest top that sixteen receivers in a row can meet in a segment.
@@ -78,11 +76,12 @@ struct CanopyRay {
     else
       covered.join({low, high, {}, {}});
   }
-  /// To what is solid at the side where a pixel is entered: the higher of two that are a step apart, and between both otherwise.
-  FARLOD_LANES void raise_solid(const Floats& next_m, float per_entered) {
-    const Floats side_m =
-        choose(abs(next_m - solid_before_m) > least_step_m, max(next_m, solid_before_m), 0.5F * (next_m + solid_before_m));
-    solid = min(max(solid, (side_m - z_m) * broadcast(per_entered)), horizon);
+  /// To what is solid at the side where a pixel is entered: half-way between two that are joined, and otherwise the higher one.
+  FARLOD_LANES void raise_solid(const CanopyCrossing& c) {
+    const Floats next_m = load(solid_m + c.pixel);
+    const Ints joined = (to_bits(solid_before_m) & c.joined_before) + (to_bits(next_m) & c.joined_here);
+    const Floats side_m = choose(joined > broadcast(0), 0.5F * (next_m + solid_before_m), max(next_m, solid_before_m));
+    solid = min(max(solid, (side_m - z_m) * broadcast(c.per_entered)), horizon);
     solid_before_m = next_m;
   }
 
@@ -107,8 +106,8 @@ struct CanopyRay {
       const bool has_crowns = !are_hidden(field.highest, s);
       if (!is_below && !has_crowns) continue;
       for (std::uint32_t c = n == 0 ? 0 : path.segments[n - 1].end; c < s.end; ++c) {
+        if constexpr (is_below) raise_solid(path.crossings[c]);
         if (has_crowns) pass(path.crossings[c]);
-        if constexpr (is_below) raise_solid(load(solid_m + path.crossings[c].pixel), path.crossings[c].per_entered);
       }
     }
   }

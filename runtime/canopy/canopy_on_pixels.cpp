@@ -18,7 +18,7 @@ constexpr std::int32_t square_of(std::int32_t pixel) {
   return pixel >= 0 ? pixel / square_edge : -((square_edge - 1 - pixel) / square_edge);
 }
 
-/// Appends the packets of some receivers, which these numbers name, to an order. One group takes them all, if there is none yet.
+/// Appends the packets of some receivers, which these numbers name, to an order: as one group, or in the groups that they have.
 void append(const PacketOrder& some, std::span<const std::uint32_t> numbers, bool is_one_group, PacketOrder& all) {
   const auto first = static_cast<std::uint32_t>(all.numbers.size()), packets = static_cast<std::uint32_t>(all.ends.size());
   for (const std::uint32_t n : some.numbers) all.numbers.push_back(numbers[n]);

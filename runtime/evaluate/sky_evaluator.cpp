@@ -85,8 +85,9 @@ void Evaluation::make_canopy_city() const {
   const Quantities& q = settings.further;
   const bool wants_solids = q.svfaveg || q.directional_vegetation || q.sky_shares;
   const PixelHeightsFile* const heights = wants_solids ? package.pixel_heights() : nullptr;
-  std::optional<CanopyField> field = CanopyField::of(*canopy_lattice_, package.manifest(), crowns,
-                                                     heights == nullptr ? std::span<const float>() : heights->height_m());
+  std::optional<CanopyField> field =
+      CanopyField::of(*canopy_lattice_, package.manifest(), crowns,
+                      heights == nullptr ? SolidPixels() : SolidPixels{heights->height_m(), heights->joined()});
   package.crowns().let_go();
   if (heights != nullptr) heights->let_go();
   if (field) canopy_->city.emplace(package.manifest(), *canopy_lattice_, std::move(*field), further.azimuths());

@@ -34,6 +34,11 @@ void raise_to_next(std::span<float> values, std::size_t apart, std::int32_t coun
 
 }  // namespace
 
+float flagged_height(float height_m, std::uint32_t joined) {
+  // Flags alone would make 0 a denormal number, with which processors compute slowly
+  return flagged(std::abs(height_m) < least_height_m ? least_height_m : height_m, joined & flags);
+}
+
 /// There is room before the first square, from where it is still looked at, and behind the last, at the end of each row.
 HighestPixels::HighestPixels(const float* height_m, std::ptrdiff_t stride, std::int32_t columns, std::int32_t rows,
                              const Around& around)
@@ -92,8 +97,7 @@ void PixelField::fill(std::span<const float> height_m, std::span<const std::uint
     for (std::int32_t column = 0; column < columns_; ++column) {
       const auto n = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
       if (std::isnan(height_m[n])) continue;
-      // Flags alone would make 0 a denormal number, with which processors compute slowly
-      heights[column] = flagged(std::abs(height_m[n]) < least_height_m ? least_height_m : height_m[n], joined[n] & flags);
+      heights[column] = flagged_height(height_m[n], joined[n]);
       highest_m_ = std::max(highest_m_, heights[column]);
       is_torn_ |= column + 1 < columns_ && row + 1 < rows_ && (joined[n] & flags) != flags;
     }

@@ -42,6 +42,9 @@ static_assert((1 << 5) * 4 >= long_step + 3 + 15 + 31);
 /// How many sides between two pixels are walls, or the ends of what has heights. What is joined is that of PixelHeightsFile.
 [[nodiscard]] double walls_per_pixel(const package::SurfacePixels& pixels, std::span<const std::uint8_t> joined);
 
+/// A height with JoinedPixels, as PixelFieldView has it.
+[[nodiscard]] float flagged_height(float height_m, std::uint32_t joined);
+
 /// All pixels of a raster that is a city, and its heights, as marches read them: four bytes a pixel.
 class PixelField {
  public:

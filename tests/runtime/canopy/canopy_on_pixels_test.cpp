@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "canopy/canopy_sky.hpp"
+#include "package/pixel_heights.hpp"
 #include "tests/runtime/canopy/crown_scenes.hpp"
 
 namespace farlod {
@@ -25,10 +27,13 @@ struct Canopy {
   AzimuthSampling azimuths;
   std::vector<Crown> crowns;  ///< cell frame
   std::vector<float> height_m;
+  std::vector<std::uint8_t> joined;
   RandomPlaces random;
 
   explicit Canopy(double bearing_deg, std::size_t count = 64)
-      : azimuths(AzimuthSampling::even(count, GridRotation(Angle::degrees(bearing_deg)))), height_m(edge * edge, 0.0F) {
+      : azimuths(AzimuthSampling::even(count, GridRotation(Angle::degrees(bearing_deg)))),
+        height_m(edge * edge, 0.0F),
+        joined(edge * edge, 0) {
     manifest.grid.rotation = GridRotation(Angle::degrees(bearing_deg));
     manifest.grid.cell_edge_m = 1.5 * edge * pixel_edge_m;
     manifest.grid.cells = {-1, 0, 1, 1};
@@ -62,8 +67,7 @@ struct Canopy {
   [[nodiscard]] std::optional<CanopyLattice> lattice() const { return CanopyLattice::of(manifest.grid, {0, 0}, crowns.front()); }
   [[nodiscard]] std::optional<CanopyField> field(bool knows_solids) const {
     const CellCrowns of_cell{{0, 0}, crowns};
-    return CanopyField::of(*lattice(), manifest, {&of_cell, 1},
-                           knows_solids ? std::span<const float>(height_m) : std::span<const float>());
+    return CanopyField::of(*lattice(), manifest, {&of_cell, 1}, knows_solids ? SolidPixels{height_m, joined} : SolidPixels());
   }
   [[nodiscard]] CanopyCity city(bool knows_solids = false) const {
     return {manifest, *lattice(), *field(knows_solids), azimuths};
@@ -173,8 +177,11 @@ TEST(CanopyOnPixels, AllTargetsGiveTheSameBits) {
   }
 }
 
-/// Whether a ray from a receiver meets a crown before it meets what is solid, by small steps. It has to meet something solid.
-bool meets_crown_before_wall(const Canopy& canopy, const Receiver& receiver, Point2d direction, double slope) {
+/// Whether a ray from a receiver meets a crown before it meets what is solid, by small steps. The surface has this height at a
+/// place of the city.
+using Surface = std::function<double(Point2d)>;
+bool meets_crown_before_solid(const Canopy& canopy, const Surface& surface, const Receiver& receiver, Point2d direction,
+                              double slope) {
   const Point2d eye = canopy.manifest.grid.rotation.city_from_grid(Point2d{receiver.p_cell.x, receiver.p_cell.y});
   std::vector<const Crown*> crown_of(canopy.height_m.size());
   for (const Crown& crown : canopy.crowns) {
@@ -184,43 +191,65 @@ bool meets_crown_before_wall(const Canopy& canopy, const Receiver& receiver, Poi
   for (double distance = 0.01; distance < 2.0 * edge * pixel_edge_m; distance += 0.02) {
     const Point2d p = eye + distance * direction;
     if (p.x < 0.0 || p.y < 0.0 || p.x >= edge * pixel_edge_m || p.y >= edge * pixel_edge_m) return false;
-    const auto n = static_cast<std::size_t>(p.y / pixel_edge_m) * edge + static_cast<std::size_t>(p.x / pixel_edge_m);
+    const Crown* const crown =
+        crown_of[static_cast<std::size_t>(p.y / pixel_edge_m) * edge + static_cast<std::size_t>(p.x / pixel_edge_m)];
     const double z = static_cast<double>(receiver.p_cell.z) + slope * distance;
-    if (crown_of[n] != nullptr && static_cast<double>(crown_of[n]->bottom_m) < z && z < static_cast<double>(crown_of[n]->top_m))
-      return true;
-    if (z < static_cast<double>(canopy.height_m[n])) return false;
+    if (z < surface(p)) return false;
+    if (crown != nullptr && static_cast<double>(crown->bottom_m) < z && z < static_cast<double>(crown->top_m)) return true;
   }
   return false;
 }
 
-// 1 − svfaveg, with walls of 20 m and ground at 0
-TEST(CanopyOnPixels, TellsWhatIsSolidBehindCrowns) {
-  Canopy canopy(0.0, 16);
-  canopy.plant();
-  for (int row = 0; row < edge; ++row)
-    for (int column = 0; column < edge; ++column)
-      if (column < 20 || column >= 62 || row < 25) canopy.height_m[static_cast<std::size_t>(row * edge + column)] = 20.0F;
+/// 1 − svfaveg at each azimuth, for some receivers on the ground, whose horizons are so high.
+void expect_solid_behind_crowns(Canopy& canopy, const Surface& surface, float horizon, double tolerance) {
   std::vector<Receiver> receivers;
   for (Receiver& r : canopy.receivers(38, 40, 3)) receivers.push_back({receivers.size(), {r.p_cell.x, r.p_cell.y, 1.5F}});
   const std::vector<ReceiverPacket> packets = packets_of(canopy, receivers);
   ASSERT_EQ(packets.size(), 1U);
   SkyProfile profile(canopy.azimuths);
-  for (PacketHorizon::Row& row : profile.sky_from) row.fill(0.3F);
+  for (PacketHorizon::Row& row : profile.sky_from) row.fill(horizon);
   const Marched marched = march(canopy.city(true), {&profile, 1}, packets);
   constexpr int parts = 200;
-  const double sky_below = 0.09 / 1.09;  // sin² of the slope 0.3
+  const double square = static_cast<double>(horizon) * static_cast<double>(horizon), sky_below = square / (1.0 + square);
   for (std::size_t k = 0; k < canopy.azimuths.size(); ++k)
     for (std::size_t l = 0; l < 9; l += 4) {
       const Receiver receiver{0, {packets[0].x[l], packets[0].y[l], packets[0].z[l]}};
+      const Point2d direction{double{canopy.azimuths.cosine()[k]}, double{canopy.azimuths.sine()[k]}};
       int met = 0;
       for (int part = 0; part < parts; ++part) {
         const double y = sky_below * (part + 0.5) / parts;
-        const Point2d direction{double{canopy.azimuths.cosine()[k]}, double{canopy.azimuths.sine()[k]}};
-        met += meets_crown_before_wall(canopy, receiver, direction, std::sqrt(y / (1.0 - y))) ? 1 : 0;
+        met += meets_crown_before_solid(canopy, surface, receiver, direction, std::sqrt(y / (1.0 - y))) ? 1 : 0;
       }
-      EXPECT_NEAR(static_cast<double>(marched.hidden_of_azimuths[k][l]), sky_below * met / parts, 2.0 * sky_below / parts + 1e-3)
+      EXPECT_NEAR(static_cast<double>(marched.hidden_of_azimuths[k][l]), sky_below * met / parts,
+                  2.0 * sky_below / parts + tolerance)
           << k;
     }
+}
+
+TEST(CanopyOnPixels, TellsWhichWallsAreBehindCrowns) {
+  Canopy canopy(0.0, 16);
+  canopy.plant();
+  for (int row = 0; row < edge; ++row)
+    for (int column = 0; column < edge; ++column)
+      if (column < 20 || column >= 62 || row < 25) canopy.height_m[static_cast<std::size_t>(row * edge + column)] = 20.0F;
+  const Surface blocks = [&](Point2d p) {
+    return static_cast<double>(
+        canopy.height_m[static_cast<std::size_t>(p.y / pixel_edge_m) * edge + static_cast<std::size_t>(p.x / pixel_edge_m)]);
+  };
+  expect_solid_behind_crowns(canopy, blocks, 0.3F, 1e-3);
+}
+
+// A slope of 56° without a step: as walls, its pixels would hide the crowns on it
+TEST(CanopyOnPixels, TellsWhichSlopesAreBehindCrowns) {
+  Canopy canopy(0.0, 16);
+  canopy.plant();
+  const auto height_at = [](double columns) { return std::max(0.0, 3.0 * (columns - 42.0)); };
+  for (int row = 0; row < edge; ++row)
+    for (int column = 0; column < edge; ++column)
+      canopy.height_m[static_cast<std::size_t>(row * edge + column)] = static_cast<float>(height_at(column));
+  std::ranges::fill(canopy.joined, static_cast<std::uint8_t>(JoinedPixels::east | JoinedPixels::north));
+  const Surface slope = [&](Point2d p) { return height_at(p.x / pixel_edge_m - 0.5); };
+  expect_solid_behind_crowns(canopy, slope, 0.6F, 0.012);
 }
 
 TEST(CanopyOnPixels, LeavesOthersToOthers) {
