@@ -271,11 +271,14 @@ FARLOD_LANES Joint joint_of(const EdgeInWedge& p, const EdgeInWedge& v, const Pi
 }
 
 /// A slope below which both edges hide all of the wedge: none where they are apart. Nothing is known where their lines are not
-/// the horizons that were drawn.
-FARLOD_LANES Floats lid_of(const WedgePairs& e, const WedgeShape& w, const PairsAnswer& answer, Floats& known) {
+/// the horizons that were drawn, or where these dip.
+FARLOD_LANES Floats lid_of(const WedgePairs& e, const WedgeShape& w, const Floats& dip, const PairsAnswer& answer,
+                           Floats& known) {
   const Floats first = load(answer.first), last = load(answer.last), zero = broadcast(0.0F), one = broadcast(1.0F);
   const Floats from = load(e.from), to = load(e.to) * (1.0F / w.cosine);
-  const Floats differs = max(abs(first - from) - 1e-3F * (1.0F + from), abs(last - to) - 1e-3F * (1.0F + to));
+  constexpr float rounding = 2e-6F;
+  const Floats differs =
+      max(dip - rounding * (1.0F + from), max(abs(first - from) - 1e-3F * (1.0F + from), abs(last - to) - 1e-3F * (1.0F + to)));
   // A NaN differs
   known = choose(differs <= 0.0F, one, zero);
   // A place of the picture plane is seen at its height times cos φ
@@ -289,8 +292,15 @@ FARLOD_LANES EdgeInWedge edge_in_wedge(const EdgesSeen& e, const Floats& cosine,
           bx * cosine + by * sine, by * cosine - bx * sine, load(e.qz)};
 }
 
-/// Lays both edges into the picture plane.
-FARLOD_LANES void place_pairs(const WedgePairs& e, const WedgeShape& w, PairsAnswer& answer) {
+/// How far an edge's line is below the level, or below the receiver's own plane, at a place of the picture plane.
+FARLOD_LANES Floats dip_of(const Floats& height, const Floats& tau, const Normals& n) {
+  constexpr float level = 1e-6F;
+  const Floats upward = choose(n.z > level, n.z, broadcast(1.0F)), plane = -(n.x + n.y * tau) / upward;
+  return max(choose(n.z > level, plane, broadcast(0.0F)), broadcast(0.0F)) - height;
+}
+
+/// Lays both edges into the picture plane. Returns how far they dip where one follows the other: there, neither is the horizon.
+FARLOD_LANES Floats place_pairs(const WedgePairs& e, const WedgeShape& w, const Normals& n, PairsAnswer& answer) {
   const Floats c = load(e.cosine), s = load(e.sine), end = broadcast(w.tangent), zero = broadcast(0.0F);
   const EdgeInWedge p = edge_in_wedge(e.first, c, s);
   const EdgeInWedge v = edge_in_wedge(e.last, c, s);
@@ -299,23 +309,25 @@ FARLOD_LANES void place_pairs(const WedgePairs& e, const WedgeShape& w, PairsAns
   store(joint.before, answer.turn);
   store(joint.after - joint.before, answer.gap);
   store(max(first.level, zero), answer.first);
-  store(max(first.level + first.rise * joint.before, zero), answer.before);
-  store(max(last.level + last.rise * joint.after, zero), answer.after);
+  const Floats before = first.level + first.rise * joint.before, after = last.level + last.rise * joint.after;
+  store(max(before, zero), answer.before);
+  store(max(after, zero), answer.after);
   store(max(last.level + end * last.rise, zero), answer.last);
+  return max(dip_of(before, joint.before, n), dip_of(after, joint.after, n));
 }
 
 template <WedgeWeight weight>
 FARLOD_LANES void bound_pairs_by(const WedgePairs& e, const WedgeShape& w, PairsAnswer& answer) {
-  place_pairs(e, w, answer);
   const Floats c = load(e.cosine), s = load(e.sine), zero = broadcast(0.0F);
   const Normals n{e.normal_x * c + e.normal_y * s, e.normal_y * c - e.normal_x * s, broadcast(e.normal_z)};
+  const Floats dip = place_pairs(e, w, n, answer);
   const Floats turn = load(answer.turn), gap = load(answer.gap), before = load(answer.before), after = load(answer.after);
   const Floats top = load(e.top), least = load(e.least), end = broadcast(w.tangent);
   Floats sky = sky_above<weight>(zero, load(answer.first), turn, before, n) +
                sky_above<weight>(turn + gap, after, end, load(answer.last), n);
   if constexpr (weight == WedgeWeight::cosine) sky += above_border(turn, before, n) - above_border(turn, after, n);
   Floats known = zero;
-  const Floats lid = lid_of(e, w, answer, known);
+  const Floats lid = lid_of(e, w, dip, answer, known);
   store(lid, answer.lid);
   if constexpr (weight == WedgeWeight::cosine_up) {
     // Between both, all may be sky

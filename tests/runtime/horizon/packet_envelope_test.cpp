@@ -47,11 +47,16 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
         const float length = random_.between(0.1, 20.0);
         edges.push_back({a, a + length * random_.direction_at(0.3)});
       }
+    draw(edges);
+  }
+
+  void draw(std::vector<HorizonEdge>& edges) {
     for (HorizonEdge& e : edges) e.adjacent = {AdjacentSlopes::straight_down, AdjacentSlopes::straight_down};
     edges_ = silhouettes_of(edges);
     edges_.number_from(0);
     ends_of_numbers_ = BorderEnds(std::array<const SilhouetteEdges*, 1>{&edges_});
     ends_.find(list_, ends_of_numbers_);
+    horizon_ = PacketHorizon(azimuths_, PacketHorizon::Edges::tracked);
     horizon_.raise(edges_, receivers_);
   }
 
@@ -103,6 +108,31 @@ TEST_P(PacketEnvelopes, BoundTheSkyAboveAllEdges) {
       // What is lower than the horizons of all receivers is not looked at
       constexpr double dents = 1e-3;
       EXPECT_LE(bounds.high[l] - bounds.low[l], wanted + dents) << l;
+    }
+  }
+}
+
+TEST_P(PacketEnvelopes, BoundTheSkyOfWedgesInWhichAnEdgeDips) {
+  // Borders of gables, steep and near: they fall below the level, and below the planes of tilted receivers, where others begin
+  envelope_.keep_terms();
+  const PacketEnvelope::Rows nothing = rows_of(0.0F);
+  for (int scene = 0; scene < 10; ++scene) {
+    std::vector<HorizonEdge> gables;
+    for (int n = 0; n < 12; ++n) {
+      const Point3f ridge = random_.place(25.0, 2.0, 9.0);
+      gables.push_back({ridge, ridge + random_.between(2.0, 12.0) * random_.direction_at(-0.8)});
+    }
+    draw(gables);
+    // The horizons of azimuths between which edges dip have errors of floats, too
+    constexpr double term_error = 2e-6;
+    const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, receivers_, 1.0);
+    for (std::size_t l = 0; l < receivers_.count; ++l) {
+      EXPECT_LE(bounds.low[l], bounds.high[l]) << l;
+      for (std::size_t k = 0; k < envelope_.size(); ++k) {
+        const double exact = envelope_.term_of(exact_sky(k, l, 0.0), k, receivers_, l);
+        EXPECT_LE(envelope_.terms().low[k][l], exact + term_error) << l << ", wedge " << k;
+        EXPECT_GE(envelope_.terms().high[k][l], exact - term_error) << l << ", wedge " << k;
+      }
     }
   }
 }
