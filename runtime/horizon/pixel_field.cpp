@@ -84,8 +84,6 @@ PixelField::PixelField(const package::SurfacePixels& pixels, std::span<const flo
       around_(nullptr, 0, 1, 0, around_far_step),
       long_around_(nullptr, 0, 1, 0, around_long_step) {
   fill(height_m, joined);
-  for (std::int32_t n = 0; n < 2 * (std::max(columns_, rows_) + 2 * columns_aside); ++n)
-    per_number_.push_back(n == 0 ? 0.0F : 1.0F / static_cast<float>(n));
   around_ = {first(), stride_, columns_, rows_, around_far_step};
   long_around_ = {first(), stride_, columns_, rows_, around_long_step};
 }
@@ -106,7 +104,7 @@ void PixelField::fill(std::span<const float> height_m, std::span<const std::uint
 }
 
 PixelFieldView PixelField::view() const {
-  return {first(), stride_, columns_, rows_, around_.view(), long_around_.view(), highest_m_, per_number_.data(), is_torn_};
+  return {first(), stride_, columns_, rows_, around_.view(), long_around_.view(), highest_m_, is_torn_};
 }
 
 FourPixels PixelField::four_from(std::int32_t column, std::int32_t row) const {

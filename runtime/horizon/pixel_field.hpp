@@ -76,7 +76,6 @@ class PixelField {
   std::vector<float> height_m_;  ///< flagged: PixelFieldView
   HighestPixels around_, long_around_;
   float highest_m_ = no_height_m;
-  std::vector<float> per_number_;
   bool is_torn_ = false;
 };
 
@@ -115,11 +114,19 @@ class PixelWindow {
   std::optional<HighestPixels> highest_;  ///< once it looks at something
 };
 
+/// Where receivers stand in their pixel, from its centre to the east and to the north: in parts of a pixel, up to half of one.
+struct PixelOffset {
+  static constexpr double parts = 8192.0;
+  std::int16_t east = 0, north = 0;
+  [[nodiscard]] Point2d in_pixels() const { return {east / parts, north / parts}; }
+  auto operator<=>(const PixelOffset&) const = default;
+};
+
 /// The paths at the azimuths of a sampling.
 class PixelPaths {
  public:
-  /// Directions from the centre of a pixel, counted from the east, over a field.
-  PixelPaths(std::span<const Point2d> directions, const PixelField& field);
+  /// Directions from a place in a pixel, counted from the east, over a field.
+  PixelPaths(std::span<const Point2d> directions, const PixelField& field, const PixelOffset& offset = {});
   [[nodiscard]] std::span<const PixelPath> paths() const { return paths_; }
 
  private:
@@ -127,7 +134,7 @@ class PixelPaths {
     std::size_t near, crossings, sides, far, long_far;
   };
   [[nodiscard]] Counts counts() const;
-  void add_near(Point2d direction, double pixel_m);
+  void add_near(Point2d direction, Point2d offset, double pixel_m);
 
   std::vector<PixelPath> paths_;
   std::vector<NearSegment> near_;

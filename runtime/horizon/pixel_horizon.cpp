@@ -17,7 +17,6 @@ namespace {
 /// Receivers are floats in their cell, and so off the centres by some micrometres.
 constexpr double most_aside = 1e-3, most_pixels = 1e9;
 
-/// In the frame of the pixels, which run to the east and to the north.
 std::vector<Point2d> directions_of(const AzimuthSampling& azimuths, const GridRotation& rotation) {
   std::vector<Point2d> directions;
   for (std::size_t k = 0; k < azimuths.size(); ++k)
@@ -27,16 +26,19 @@ std::vector<Point2d> directions_of(const AzimuthSampling& azimuths, const GridRo
 
 constexpr auto row_length = static_cast<std::int32_t>(packet_lanes), block_rows = static_cast<std::int32_t>(PixelBlock::rows);
 
-/// A window's square, a column of blocks in it, and a row: packets in this order fill blocks.
-std::array<std::int32_t, 4> order_of_place(std::int32_t column, std::int32_t row) {
-  return {row / PixelWindow::edge, column / PixelWindow::edge, column / row_length, row};
+/// A window's square, a place in pixels, a column of blocks in it, and a row: packets in this order fill blocks.
+std::array<std::int32_t, 6> order_of_place(std::int32_t column, std::int32_t row, const PixelOffset& offset) {
+  return {row / PixelWindow::edge, column / PixelWindow::edge, offset.north, offset.east, column / row_length, row};
 }
 
 }  // namespace
 
 PixelCity::PixelCity(const package::Manifest& m, std::span<const float> height_m, std::span<const std::uint8_t> joined,
                      const AzimuthSampling& azimuths)
-    : manifest(m), field(*m.pixels, height_m, joined), paths(directions_of(azimuths, m.grid.rotation), field) {}
+    : manifest(m),
+      field(*m.pixels, height_m, joined),
+      directions(directions_of(azimuths, m.grid.rotation)),
+      paths(directions, field) {}
 
 PixelHorizon::PixelHorizon(const PixelCity& city, Cell cell)
     : city_(city), corner_grid_(city.manifest.grid.corner_of(cell)), window_(city.field) {}
@@ -50,10 +52,14 @@ Point2d PixelHorizon::pixels_at(Point2d p_cell) const {
 std::optional<PixelHorizon::Place> PixelHorizon::place_of(const Point3f& p_cell) const {
   const Point2d p = pixels_at({double{p_cell.x}, double{p_cell.y}});
   const Point2d centre{std::round(p.x), std::round(p.y)};
-  const bool is_centre = std::abs(p.x - centre.x) <= most_aside && std::abs(p.y - centre.y) <= most_aside;
   // Numbers beyond those of pixels may be none of an integer
-  if (!is_centre || std::abs(centre.x) > most_pixels || std::abs(centre.y) > most_pixels) return std::nullopt;
-  const Place place{static_cast<std::int32_t>(centre.x), static_cast<std::int32_t>(centre.y)};
+  if (std::abs(centre.x) > most_pixels || std::abs(centre.y) > most_pixels) return std::nullopt;
+  const bool is_centre = std::abs(p.x - centre.x) <= most_aside && std::abs(p.y - centre.y) <= most_aside;
+  const auto part = [is_centre](double pixels) {
+    return is_centre ? std::int16_t{0} : static_cast<std::int16_t>(std::lround(pixels * PixelOffset::parts));
+  };
+  const Place place{
+      static_cast<std::int32_t>(centre.x), static_cast<std::int32_t>(centre.y), {part(p.x - centre.x), part(p.y - centre.y)}};
   return city_.field.contains(place.column, place.row) ? std::optional(place) : std::nullopt;
 }
 
@@ -61,8 +67,7 @@ ReceiversOnPixels PixelHorizon::packets_of(std::span<const Receiver> receivers) 
   std::vector<OnPixel> found;
   ReceiversOnPixels result;
   for (std::size_t n = 0; n < receivers.size(); ++n) {
-    const bool looks_up = receivers[n].normal == Point3f{0.0F, 0.0F, 1.0F};
-    const std::optional<Place> place = looks_up ? place_of(receivers[n].p_cell) : std::nullopt;
+    const std::optional<Place> place = place_of(receivers[n].p_cell);
     if (place)
       found.push_back({*place, static_cast<std::uint32_t>(n)});
     else
@@ -73,7 +78,7 @@ ReceiversOnPixels PixelHorizon::packets_of(std::span<const Receiver> receivers) 
 }
 
 PacketOrder PixelHorizon::order_of(std::vector<OnPixel> receivers) {
-  const auto place = [](const OnPixel& r) { return order_of_place(r.place.column, r.place.row); };
+  const auto place = [](const OnPixel& r) { return order_of_place(r.place.column, r.place.row, r.place.offset); };
   std::ranges::sort(receivers, {}, [&](const OnPixel& r) { return std::tuple(place(r), r.place.column, r.number); });
   PacketOrder order;
   std::size_t packets = 0;
@@ -84,8 +89,11 @@ PacketOrder PixelHorizon::order_of(std::vector<OnPixel> receivers) {
     if (!is_last && place(receivers[n]) == place(receivers[n + 1]) && receivers[n].place.column != receivers[n + 1].place.column)
       continue;
     order.ends.push_back(static_cast<std::uint32_t>(n + 1));
-    const auto window = [&](std::size_t m) { return std::pair(place(receivers[m])[0], place(receivers[m])[1]); };
-    if (++packets < packets_in_group && !is_last && window(n) == window(n + 1)) continue;
+    const auto is_together = [&](std::size_t m) {
+      const auto a = place(receivers[m]), b = place(receivers[m + 1]);
+      return std::equal(a.begin(), a.begin() + 4, b.begin());
+    };
+    if (++packets < packets_in_group && !is_last && is_together(n)) continue;
     order.group_ends.push_back(static_cast<std::uint32_t>(order.ends.size()));
     packets = 0;
   }
@@ -130,10 +138,17 @@ void PixelHorizon::draw(std::span<const ReceiverPacket> packets, std::span<Packe
     block.window_x = window_.x_of(block.column);
     block.window_y = window_.y_of(block.row);
   }
-  pixel_kernels().march(window_.view(), city_.field.view(), city_.paths.paths(), blocks_);
+  pixel_kernels().march(window_.view(), city_.field.view(), paths_from(first.offset).paths(), blocks_);
   for (std::size_t n = 0; n < packets.size(); ++n)
     if (packets[n].count < packet_lanes)
       copy_drawn(packets[n], std::span(drawn_).subspan(n * azimuths, azimuths), horizons[n].drawn_slopes());
+}
+
+const PixelPaths& PixelHorizon::paths_from(const PixelOffset& offset) {
+  if (offset == PixelOffset{}) return city_.paths;
+  if (!paths_ || offset != offset_) paths_.emplace(city_.directions, city_.field, offset);
+  offset_ = offset;
+  return *paths_;
 }
 
 /// From the pixels of a row to the receivers above some of them.

@@ -23,17 +23,18 @@ struct PixelCity {
             const AzimuthSampling& azimuths);
   const package::Manifest& manifest;
   PixelField field;
-  PixelPaths paths;
+  std::vector<Point2d> directions;  ///< in the frame of the pixels, which run to the east and to the north
+  PixelPaths paths;                 ///< from the centres of pixels
 };
 
-/// The receivers of a cell that stand at the centres of pixels and look straight up, and the others.
+/// The receivers of a cell that stand above pixels, and the others.
 struct ReceiversOnPixels {
-  PacketOrder on_pixels;  ///< packets are above sixteen pixels in a row, or above some of them
+  PacketOrder on_pixels;  ///< packets are above sixteen pixels in a row, or above some of them, and stand alike in these
   std::vector<std::uint32_t> others;
 };
 
-/// Horizons of receivers of one cell at the centres of a raster's pixels: rays march over all pixels, as far as the raster
-/// reaches. docs/concepts.md, "A march over pixels".
+/// Horizons of receivers of one cell above a raster's pixels: rays march over all pixels, as far as the raster reaches. Those who
+/// stand alike in their pixels march together, such as at the centres. docs/concepts.md, "A march over pixels".
 class PixelHorizon {
  public:
   /// The city must outlive it.
@@ -46,6 +47,7 @@ class PixelHorizon {
  private:
   struct Place {
     std::int32_t column, row;
+    PixelOffset offset;
   };
   struct OnPixel {
     Place place;
@@ -58,10 +60,13 @@ class PixelHorizon {
   /// A packet is a row of a block, whose slopes are drawn there.
   void add_to_blocks(const ReceiverPacket& packet, float* slopes);
   void copy_drawn(const ReceiverPacket& packet, std::span<const PacketHorizon::Row> drawn, float* slopes) const;
+  [[nodiscard]] const PixelPaths& paths_from(const PixelOffset& offset);
 
   const PixelCity& city_;
   Point2d corner_grid_;
   PixelWindow window_;
+  PixelOffset offset_;
+  std::optional<PixelPaths> paths_;  ///< from there, once it is no centre
   // Working memory
   std::vector<PixelBlock> blocks_;
   std::int32_t last_row_ = 0;              ///< of the last block

@@ -23,9 +23,9 @@ struct FixedPoint {
   std::int32_t whole;
   float part;
 };
-/// Half a pixel more than what a ray has gone aside half a line before the n-th.
-FARLOD_LANES std::int64_t half_before(std::int32_t n, std::int64_t per_line) {
-  return n * per_line - per_line / 2 + (std::int64_t{1} << 31);
+/// Half a pixel more than where a ray is aside half a line before the n-th.
+FARLOD_LANES std::int64_t half_before(std::int32_t n, std::int64_t per_line, std::int64_t first) {
+  return n * per_line - per_line / 2 + first + (std::int64_t{1} << 31);
 }
 template <class Number>
 FARLOD_LANES Number lowest_of(Number a, Number b) {
@@ -128,21 +128,21 @@ struct FarRay {
     else
       return sloped;
   }
-  FARLOD_LANES void pass_column(const float* pixel, float share, float per_number, Floats (&rise)[PixelBlock::rows]) const {
+  FARLOD_LANES void pass_column(const float* pixel, float share, float per_line, Floats (&rise)[PixelBlock::rows]) const {
     const std::ptrdiff_t nearer = share < 0.5F ? 0 : field.stride;
     // The northern pixel of a row is the southern one of the next
     Floats south = load(pixel);
     for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += field.stride) {
       const Floats to = load(pixel + field.stride);
-      rise[r] = max(rise[r], (between(south, to, pixel + nearer, north, share) - horizon.z_m[r]) * broadcast(per_number));
+      rise[r] = max(rise[r], (between(south, to, pixel + nearer, north, share) - horizon.z_m[r]) * broadcast(per_line));
       south = to;
     }
   }
-  FARLOD_LANES void pass_row(const float* pixel, float share, float per_number, Floats (&rise)[PixelBlock::rows]) const {
+  FARLOD_LANES void pass_row(const float* pixel, float share, float per_line, Floats (&rise)[PixelBlock::rows]) const {
     const std::ptrdiff_t nearer = share < 0.5F ? 0 : 1;
     for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += field.stride)
-      rise[r] = max(
-          rise[r], (between(load(pixel), load(pixel + 1), pixel + nearer, east, share) - horizon.z_m[r]) * broadcast(per_number));
+      rise[r] = max(rise[r],
+                    (between(load(pixel), load(pixel + 1), pixel + nearer, east, share) - horizon.z_m[r]) * broadcast(per_line));
   }
   /// Raises horizons to what rises from line to line by that much.
   FARLOD_LANES void raise(const Floats (&rise)[PixelBlock::rows], float lines_per_metre) {
@@ -168,27 +168,30 @@ struct FarRay {
   FARLOD_LANES void march_columns(std::int32_t first, std::int32_t end) {
     Floats rise[PixelBlock::rows]{};
     for (std::int32_t n = first; n < end; ++n) {
-      const FixedPoint y(n * path.north_per_column);
-      pass_column(pixel_at(x_sign() * n, y.whole), y.part, field.per_number[n], rise);
+      const FixedPoint y(n * path.north_per_column + path.north_first);
+      pass_column(pixel_at(x_sign() * n, y.whole), y.part, 1.0F / (static_cast<float>(n) - path.column_lead), rise);
     }
     raise(rise, path.columns_per_metre);
   }
   FARLOD_LANES void march_rows(std::int32_t first, std::int32_t end) {
     Floats rise[PixelBlock::rows]{};
     for (std::int32_t n = first; n < end; ++n) {
-      const FixedPoint x(n * path.east_per_row);
-      pass_row(pixel_at(x.whole, y_sign() * n), x.part, field.per_number[n], rise);
+      const FixedPoint x(n * path.east_per_row + path.east_first);
+      pass_row(pixel_at(x.whole, y_sign() * n), x.part, 1.0F / (static_cast<float>(n) - path.row_lead), rise);
     }
     raise(rise, path.rows_per_metre);
   }
   FARLOD_LANES void march_sides(const FarSegment& before, const FarSegment& segment) {
+    const auto per_side = [](std::int32_t n, float lead) { return 1.0F / (static_cast<float>(n) - 0.5F - lead); };
     for (std::int32_t n = before.east_sides_end; n < segment.east_sides_end; ++n) {
-      const float* const pixel = pixel_at(x_sign() < 0 ? -n : n - 1, FixedPoint(half_before(n, path.north_per_column)).whole);
-      pass_side(pixel, pixel + 1, east, path.columns_per_metre * 2.0F * field.per_number[2 * n - 1]);
+      const FixedPoint y(half_before(n, path.north_per_column, path.north_first));
+      const float* const pixel = pixel_at(x_sign() < 0 ? -n : n - 1, y.whole);
+      pass_side(pixel, pixel + 1, east, path.columns_per_metre * per_side(n, path.column_lead));
     }
     for (std::int32_t n = before.north_sides_end; n < segment.north_sides_end; ++n) {
-      const float* const pixel = pixel_at(FixedPoint(half_before(n, path.east_per_row)).whole, y_sign() < 0 ? -n : n - 1);
-      pass_side(pixel, pixel + field.stride, north, path.rows_per_metre * 2.0F * field.per_number[2 * n - 1]);
+      const FixedPoint x(half_before(n, path.east_per_row, path.east_first));
+      const float* const pixel = pixel_at(x.whole, y_sign() < 0 ? -n : n - 1);
+      pass_side(pixel, pixel + field.stride, north, path.rows_per_metre * per_side(n, path.row_lead));
     }
   }
 

@@ -8,9 +8,9 @@
 
 #include "horizon/receiver_packet.hpp"
 
-/// What the march over pixels reads (PixelHorizon): receivers at the centres of pixels see the same crossings, each from its own
-/// pixel. Lengths are in pixels but for heights; planes are arrays of floats, rows from the south, of one stride. A pixel without
-/// a height lies at `no_height_m`. docs/concepts.md, "A march over pixels".
+/// What the march over pixels reads (PixelHorizon): receivers that stand alike in their pixels, such as at the centres, see the
+/// same crossings, each from its own pixel. Lengths are in pixels but for heights; planes are arrays of floats, rows from the
+/// south, of one stride. A pixel without a height lies at `no_height_m`. docs/concepts.md, "A march over pixels".
 namespace farlod {
 
 inline constexpr float no_height_m = -1e30F;
@@ -45,6 +45,8 @@ struct PixelPath {
   double cosine, sine;
   double per_cosine, per_sine;                  ///< |1 / cosine|, |1 / sine|
   std::int64_t north_per_column, east_per_row;  ///< how far it goes aside from one line to the next, in 2^-32
+  std::int64_t north_first, east_first;         ///< where it would begin, by that, on the lines through the receiver's pixel
+  float column_lead, row_lead;                  ///< by how much lines are nearer than from the centre of the pixel
   float columns_per_metre, rows_per_metre;      ///< how many lines it passes
   std::span<const NearSegment> near;
   std::span<const PixelCrossing> crossings;
@@ -77,7 +79,6 @@ struct PixelFieldView {
   std::int32_t columns, rows;
   HighestAround highest, long_highest;
   float highest_m;
-  const float* per_number;  ///< 1 / n of every number n that lines on the way have
   bool is_torn;
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -104,8 +105,10 @@ struct Marched {
   std::vector<std::vector<float>> slopes;
 };
 Marched march(const PixelKernels& kernels, const PixelField& field, std::span<const Point2d> directions, std::int32_t column,
-              std::int32_t row, double above_m) {
-  const PixelPaths paths(directions, field);
+              std::int32_t row, double above_m, const PixelOffset& offset = {}) {
+  const PixelPaths paths(directions, field, offset);
+  const Judge judge(field);
+  const Point2d place = offset.in_pixels();
   PixelWindow window(field);
   window.look_at(column, row);
   Marched m;
@@ -118,7 +121,7 @@ Marched march(const PixelKernels& kernels, const PixelField& field, std::span<co
     m.slopes.emplace_back(directions.size() * packet_lanes);
     for (std::int32_t l = 0; l < static_cast<std::int32_t>(packet_lanes); ++l)
       block.z_m[r][l] = field.contains(column + l, row + r)
-                            ? static_cast<float>(field.four_from(column + l, row + r).height_m[0] + above_m)
+                            ? static_cast<float>(judge.height_at(column + l + place.x, row + r + place.y) + above_m)
                             : PixelBlock::no_receiver_m;
   }
   for (std::size_t r = 0; r < PixelBlock::rows; ++r) block.slopes[r] = m.slopes[r].data();
@@ -141,21 +144,24 @@ std::vector<Point2d> directions_around(std::size_t count, double first_rad) {
 constexpr double judged_within = 12.0 / pixel_edge_m * 5e-5;
 double judged_slope(const Judge& judge, Point2d from, double z_m, Point2d direction, double reach) {
   double slope = 0.0;
-  for (double s = 0.25; s < reach; s *= 1.00005)
+  for (double s = 1e-2; s < reach; s *= 1.00005)
     slope = std::max(slope, (judge.height_at(from.x + s * direction.x, from.y + s * direction.y) - z_m) / (s * pixel_edge_m));
   return slope;
 }
 
-void expect_as_judged(const Pixels& pixels, std::int32_t column, std::int32_t row) {
+/// From these pixels, at an offset in each; of the azimuths, the first is that of an axis.
+void expect_as_judged(const Pixels& pixels, std::int32_t column, std::int32_t row, const PixelOffset& offset = {}) {
   const PixelField field = pixels.field();
   const Judge judge(field);
-  const std::vector<Point2d> directions = directions_around(12, 0.1);
-  const Marched marched = march(pixel_kernels(), field, directions, column, row, 1.5);
-  for (std::int32_t r = 0; r < 4; ++r)
+  std::vector<Point2d> directions = directions_around(12, 0.1);
+  directions.insert(directions.begin(), {1.0, 0.0});
+  const Marched marched = march(pixel_kernels(), field, directions, column, row, 1.5, offset);
+  const Point2d place = offset.in_pixels();
+  for (std::int32_t r = 0; r < 4; r += 3)
     for (std::int32_t l = 0; l < 16; l += 5)
       for (std::size_t k = 0; k < directions.size(); ++k) {
         const double z_m = static_cast<double>(marched.blocks[0].z_m[r][l]);
-        const double expected = judged_slope(judge, {double(column + l), double(row + r)}, z_m, directions[k],
+        const double expected = judged_slope(judge, {column + l + place.x, row + r + place.y}, z_m, directions[k],
                                              std::hypot(pixels.columns, pixels.rows));
         const double found =
             static_cast<double>(marched.slopes[static_cast<std::size_t>(r)][k * packet_lanes + static_cast<std::size_t>(l)]);
@@ -176,15 +182,29 @@ TEST(PixelMarch, SeesWallsAndSlopesAsTheyAre) {
   expect_as_judged(random_pixels(28, 3.5, 4.0, 3), 6, 12);
 }
 
-TEST(PixelMarch, SeesALevelTownAsItIsHoweverFar) {
+Pixels town_around_a_square() {
   std::mt19937 random(4);
   std::vector<double> blocks;
   for (int n = 0; n < 40 * 40; ++n) blocks.push_back(random() % 4 == 0 ? 10.0 + static_cast<double>(random() % 60) : 0.0);
-  const Pixels town(200, 200, 2.0, [&](std::int32_t x, std::int32_t y) {
-    // An open place around the receivers, so that what is far is seen
-    return std::hypot(x - 100, y - 100) < 45.0 ? 0.0 : blocks[static_cast<std::size_t>(y / 5 * 40 + x / 5)];
-  });
-  expect_as_judged(town, 96, 98);
+  // An open place around the receivers, so that what is far is seen
+  return {200, 200, 2.0, [&](std::int32_t x, std::int32_t y) {
+            return std::hypot(x - 100, y - 100) < 45.0 ? 0.0 : blocks[static_cast<std::size_t>(y / 5 * 40 + x / 5)];
+          }};
+}
+
+TEST(PixelMarch, SeesALevelTownAsItIsHoweverFar) { expect_as_judged(town_around_a_square(), 96, 98); }
+
+TEST(PixelMarch, SeesTheSameFromAnyPlaceInAPixel) {
+  // A corner and a side of pixels, where no wall may stand, and places that are neither
+  for (const PixelOffset& offset : {PixelOffset{4096, 4096}, PixelOffset{-4096, 0}, PixelOffset{2048, -2048}}) {
+    SCOPED_TRACE(testing::Message() << offset.east << ',' << offset.north);
+    expect_as_judged(random_pixels(28, 1e9, 4.0, 1), 6, 12, offset);
+  }
+  for (const PixelOffset& offset : {PixelOffset{1234, 3517}, PixelOffset{-2750, 41}}) {
+    SCOPED_TRACE(testing::Message() << offset.east << ',' << offset.north);
+    expect_as_judged(random_pixels(28, 3.5, 4.0, 3), 6, 12, offset);
+    expect_as_judged(town_around_a_square(), 96, 98, offset);
+  }
 }
 
 TEST(PixelMarch, SeesFarReliefWithinItsFolds) {
