@@ -160,7 +160,8 @@ struct SurfacePixels {
   Point2d north_west_m;  ///< outer corner of the first pixel
   double step_m = 0.0;   ///< edge of a pixel
   std::uint32_t columns = 0, rows = 0;
-  std::optional<FileStamp> heights = {};  ///< of `heights.bin`, where the surface is made of these pixels
+  std::optional<FileStamp> heights = {};    ///< of `heights.bin`, where the surface is made of these pixels
+  std::optional<std::uint64_t> walls = {};  ///< sides of pixels beyond which the surface does not go on, where that is known
 };
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.

@@ -170,6 +170,7 @@ SurfacePixels pixels_from(const json& j) {
               pixels.step_m >= 1e-3 && pixels.step_m <= 1e6 && pixels.columns >= 1 && pixels.rows >= 1,
           "its pixels are impossible");
   if (j.contains("heights")) pixels.heights = stamp_from(j.at("heights"));
+  if (j.contains("walls")) pixels.walls = whole_number<std::uint64_t>(j.at("walls"));
   return pixels;
 }
 

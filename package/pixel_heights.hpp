@@ -29,6 +29,10 @@ struct JoinedPixels {
 
 namespace package {
 
+/// Whether a package is of a surface without walls, pixel for pixel, and of nothing else: rays march over its pixels sooner than
+/// edges are drawn (docs/decisions/0032-a-march-over-pixels.md), and its cells need no far maps.
+[[nodiscard]] bool is_natural_relief(const Manifest& manifest);
+
 /// The bytes of `heights.bin`, which packages have whose manifest names it, and no others: a header, a float for each pixel and a
 /// byte for each pixel. docs/package_format.md tells the same in words; where they differ, this file wins.
 inline constexpr std::uint32_t heights_version = 1;

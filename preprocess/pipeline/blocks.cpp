@@ -188,6 +188,12 @@ BlockPlan plan_all(const Grid& grid, const ExistingPackage* existing) {
                      [](Block, const package::BlockFiles*) -> std::optional<package::CellRuns> { return std::nullopt; });
 }
 
+BlockPlan plan_none(const Grid& grid, const ExistingPackage* existing) {
+  return plan_blocks(grid, existing, [&](Block block, const package::BlockFiles* there) {
+    return with_existing({}, there, static_cast<std::size_t>(grid.cells_of(block).size()));
+  });
+}
+
 BlockPlan plan_area(const georeference::RequestedArea& area, const Georeference& georeference, const Grid& grid,
                     const ExistingPackage* existing) {
   const Area area_city = georeference::located(area, georeference);

@@ -48,6 +48,9 @@ struct BlockPlan {
 /// Far maps for all cells. Of a package that is there, the blocks are kept that have them, and whose files are whole.
 [[nodiscard]] BlockPlan plan_all(const Grid& grid, const ExistingPackage* existing);
 
+/// No far maps but those that are there.
+[[nodiscard]] BlockPlan plan_none(const Grid& grid, const ExistingPackage* existing);
+
 /// Far maps for the area's cells, and those that have far maps in the package that is there. Throws InputError when the area has
 /// no place in the CRS of the package, and InvalidArgument when it meets no cell.
 [[nodiscard]] BlockPlan plan_area(const georeference::RequestedArea& area, const Georeference& georeference, const Grid& grid,

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/own_pixels.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "tiles/pixel_steps.hpp"
@@ -37,6 +39,14 @@ PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m) {
                                                          (steps.joins_north(column, row) ? JoinedPixels::north : 0)));
     }
   return heights;
+}
+
+void write_heights(const std::filesystem::path& folder, const PixelHeights& heights, package::SurfacePixels& pixels) {
+  pixels.heights = write_pixel_heights(folder, pixels, heights);
+  std::uint64_t joined = 0;
+  for (const std::uint8_t sides : heights.joined) joined += static_cast<std::uint64_t>(std::popcount(sides));
+  const std::uint64_t columns = pixels.columns, rows = pixels.rows;
+  pixels.walls = (columns - 1) * rows + columns * (rows - 1) - joined;
 }
 
 }  // namespace farlod::pipeline

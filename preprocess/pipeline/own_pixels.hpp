@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "city/city_model.hpp"
@@ -15,5 +16,8 @@ namespace farlod::pipeline {
 [[nodiscard]] std::optional<package::SurfacePixels> own_pixels_of(const ReadCity& city);
 /// The surface that these pixels make.
 [[nodiscard]] PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m);
+
+/// Writes them into a package's folder, and tells of them.
+void write_heights(const std::filesystem::path& folder, const PixelHeights& heights, package::SurfacePixels& pixels);
 
 }  // namespace farlod::pipeline

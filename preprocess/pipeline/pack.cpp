@@ -131,8 +131,7 @@ class Packing {
   CutCity cut_anew(PackTarget& target, CityFiles files) {
     const RunStage run_stage = [this](const std::string& stage, const std::function<void()>& work) { timed(stage, work); };
     std::vector<SourceTrees> inventories;
-    const bool has_trees = settings_.trees.any();
-    if (has_trees) timed("trees", [&] { inventories = read_inventories(settings_, report_, run_.stop); });
+    if (settings_.trees.any()) timed("trees", [&] { inventories = read_inventories(settings_, report_, run_.stop); });
     ReadCity city = read_city(std::move(files), settings_, report_, run_.stop, run_stage);
     require_unchanged(origin_);
     PackedCity& result = record_.result;
@@ -141,7 +140,7 @@ class Packing {
     take_findings(city);
     record_.plan = target.plan(city.located.georeference, result);
     tiles::TreesOfCity trees;
-    if (has_trees) timed("trees", [&] { trees = trees_at(city, std::move(inventories)); });
+    if (settings_.trees.any()) timed("trees", [&] { trees = trees_at(city, std::move(inventories)); });
     estimate(city, trees);
     result.facets = city.located.city.facets().size();
     CutCity cut;
@@ -150,6 +149,7 @@ class Packing {
     require_no_problems();
     describe_tiles(cut.tiles);
     write_beside_blocks(target.unfinished().package_folder(), cut.tiles, crowns);
+    if (auto without_far_maps = target.plan_of_relief(result)) record_.plan = std::move(*without_far_maps);
     if (target.existing()) timed("compare", [&] { target.require_same_city(cut.tiles, result.manifest); });
     if (result.chosen) timed("measure", [&] { result.chosen->measured = measure(cut.tiles); });
     record_.costs = costs_of(record_.plan, cut.tiles, result.manifest.grid);
@@ -160,7 +160,7 @@ class Packing {
     package::Manifest& m = record_.result.manifest;
     m.far_terrain = write_far_terrain(folder, tiles.far_terrain);
     m.sources = write_sources(folder, std::exchange(tiles.sources, {}), sources_);
-    if (heights_) m.pixels->heights = write_pixel_heights(folder, *m.pixels, *std::exchange(heights_, {}));
+    if (heights_) write_heights(folder, *std::exchange(heights_, {}), *m.pixels);
     if (crowns) timed("crowns", [&] { m.canopy = write_canopy(folder, *crowns); });
   }
 

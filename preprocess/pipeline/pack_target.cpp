@@ -20,6 +20,7 @@
 #include "package/layout.hpp"
 #include "package/package_folder.hpp"
 #include "package/package_writer.hpp"
+#include "package/pixel_heights.hpp"
 
 namespace farlod {
 namespace fs = std::filesystem;
@@ -344,6 +345,15 @@ BlockPlan PackTarget::plan(const Georeference& georeference, PackedCity& result)
     result.notes.push_back("Shapes of the area that meet no cell of the grid: " + std::to_string(plan.shapes_outside_of_grid));
   if (plan.far_maps == 0) result.notes.emplace_back("All cells of the area have far maps already");
   return plan;
+}
+
+std::optional<BlockPlan> PackTarget::plan_of_relief(PackedCity& result) const {
+  const bool wants_far_maps = area_ || settings_->choice || settings_->far_map.kind == FarMapKind::box;
+  if (wants_far_maps || !package::is_natural_relief(result.manifest)) return std::nullopt;
+  result.notes.emplace_back(
+      "Natural relief: rays march over its pixels, and no far maps are made. Bounds, and what hides the sky near and far, come "
+      "from the whole surface, which takes longer; --area makes far maps for them");
+  return plan_none(result.manifest.grid, existing());
 }
 
 void PackTarget::require_same_city(const TileSet& tiles, const package::Manifest& manifest) const {

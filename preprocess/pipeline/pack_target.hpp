@@ -89,6 +89,8 @@ class PackTarget {
   /// The blocks to make, once CRS, grid, settings and inputs are known. Adds notes. Throws what plan_area() throws, and
   /// OutputError when the package that is there is of another city, grid or settings.
   [[nodiscard]] BlockPlan plan(const Georeference& georeference, PackedCity& result) const;
+  /// Natural relief, once it is cut, gets no far maps but those that are asked for. Nothing for other cities.
+  [[nodiscard]] std::optional<BlockPlan> plan_of_relief(PackedCity& result) const;
   /// Once the tiles are described. Throws OutputError.
   void require_same_city(const TileSet& tiles, const package::Manifest& manifest) const;
   /// For the other shards, which wait for it. `horizon` is null for far maps of the kind `box`.

@@ -56,7 +56,7 @@ class MethodWithHorizons : public SkyMethod {
   explicit MethodWithHorizons(const Evaluation& evaluation) : evaluation_(evaluation) {}
 
   [[nodiscard]] SkyParts parts(const CellReceivers& cell, const HemisphereDirections& directions,
-                               const Occluder& near) const final {
+                               const Occluder& near) const override {
     CellGeometry g(evaluation_, cell);
     return parts_by_horizons(directions, cell.receivers.front(), g.far, g.silhouettes, g.overhangs, near, evaluation_.stop);
   }
@@ -77,6 +77,12 @@ class MethodWithHorizons : public SkyMethod {
   template <class OnPacket>
   void draw(CellGeometry& geometry, PixelHorizon* pixels, const PacketOrder& order, const CellReceivers& cell,
             const SkyAnswers& answers, const OnPacket& on_packet) const;
+
+  void store(const PacketAnswer& packet, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
+             const SkyAnswers& answers) const {
+    for (std::size_t l = 0; l < numbers.size(); ++l) answers.store(cell.receivers[numbers[l]].index, packet.svf[l]);
+    evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.decided_wedges}, answers);
+  }
 
   const Evaluation& evaluation_;
 
@@ -138,14 +144,6 @@ class HorizonMethod final : public MethodWithHorizons {
       : MethodWithHorizons(evaluation), rays_are_allowed_(rays_are_allowed) {}
 
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
-    const PixelCity* const pixels = evaluation_.pixels(answers);
-    if (pixels == nullptr) return evaluate_by_edges(cell, answers);
-    const CellReceivers others = evaluate_by_pixels(*pixels, cell, answers);
-    if (!others.receivers.empty()) evaluate_by_edges(others, answers);
-  }
-
- private:
-  void evaluate_by_edges(const CellReceivers& cell, const SkyAnswers& answers) const {
     const auto start = EvaluationCounter::Clock::now();
     require_far_map(cell.cell);
     CellGeometry geometry(evaluation_, cell);
@@ -156,25 +154,8 @@ class HorizonMethod final : public MethodWithHorizons {
     });
     evaluation_.counter->add_times(start, scene_ready);
   }
-  /// Answers the receivers at the centres of pixels, and returns the others.
-  [[nodiscard]] CellReceivers evaluate_by_pixels(const PixelCity& city, const CellReceivers& cell,
-                                                 const SkyAnswers& answers) const {
-    const auto start = EvaluationCounter::Clock::now();
-    PixelHorizon pixels(city, cell.cell);
-    const ReceiversOnPixels found = pixels.packets_of(cell.receivers);
-    CellGeometry geometry = CellGeometry::of_pixels(evaluation_, cell.cell);
-    draw(geometry, &pixels, found.on_pixels, cell, answers,
-         [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) { store(packet, numbers, cell, answers); });
-    evaluation_.counter->add_times(start, start);
-    CellReceivers others{cell.cell, {}};
-    for (const std::uint32_t n : found.others) others.receivers.push_back(cell.receivers[n]);
-    return others;
-  }
-  void store(const PacketAnswer& packet, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
-             const SkyAnswers& answers) const {
-    for (std::size_t l = 0; l < numbers.size(); ++l) answers.store(cell.receivers[numbers[l]].index, packet.svf[l]);
-    evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.decided_wedges}, answers);
-  }
+
+ private:
   void require_far_map(Cell cell) const {
     if (far_map_of(evaluation_.package, cell) != FarMapOfCell::missing) return;
     throw PackageUnusable("The engine horizon needs a far map, and cell " + text_of(cell) +
@@ -190,6 +171,41 @@ class HorizonMethod final : public MethodWithHorizons {
   }
 
   bool rays_are_allowed_;
+};
+
+class PixelMethod final : public MethodWithHorizons {
+ public:
+  PixelMethod(const Evaluation& evaluation, std::unique_ptr<const SkyMethod> others)
+      : MethodWithHorizons(evaluation), others_(std::move(others)) {}
+
+  void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
+    const PixelCity* const pixels = evaluation_.pixels(answers);
+    if (pixels == nullptr) return others_->evaluate(cell, answers);
+    const CellReceivers others = evaluate_by_pixels(*pixels, cell, answers);
+    if (!others.receivers.empty()) others_->evaluate(others, answers);
+  }
+  [[nodiscard]] SkyParts parts(const CellReceivers& cell, const HemisphereDirections& directions,
+                               const Occluder& near) const override {
+    return others_->parts(cell, directions, near);
+  }
+
+ private:
+  /// Answers the receivers above pixels, and returns the others.
+  [[nodiscard]] CellReceivers evaluate_by_pixels(const PixelCity& city, const CellReceivers& cell,
+                                                 const SkyAnswers& answers) const {
+    const auto start = EvaluationCounter::Clock::now();
+    PixelHorizon pixels(city, cell.cell);
+    const ReceiversOnPixels found = pixels.packets_of(cell.receivers);
+    CellGeometry geometry = CellGeometry::of_pixels(evaluation_, cell.cell);
+    draw(geometry, &pixels, found.on_pixels, cell, answers,
+         [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) { store(packet, numbers, cell, answers); });
+    evaluation_.counter->add_times(start, start);
+    CellReceivers others{cell.cell, {}};
+    for (const std::uint32_t n : found.others) others.receivers.push_back(cell.receivers[n]);
+    return others;
+  }
+
+  std::unique_ptr<const SkyMethod> others_;
 };
 
 class RayMethod final : public MethodWithHorizons {
@@ -257,6 +273,10 @@ void RayMethod::count_packet(RayEngine& engine, std::span<const Receiver> receiv
 
 std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed) {
   return std::make_unique<HorizonMethod>(evaluation, rays_are_allowed);
+}
+
+std::unique_ptr<const SkyMethod> pixel_method(const Evaluation& evaluation, std::unique_ptr<const SkyMethod> others) {
+  return std::make_unique<PixelMethod>(evaluation, std::move(others));
 }
 
 std::unique_ptr<const SkyMethod> ray_method(const Evaluation& evaluation) { return std::make_unique<RayMethod>(evaluation); }

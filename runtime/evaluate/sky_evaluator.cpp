@@ -10,6 +10,7 @@
 #include "evaluate/error_budget.hpp"
 #include "evaluate/sky_method.hpp"
 #include "evaluate/traced_patches.hpp"
+#include "package/pixel_heights.hpp"
 #include "scene/canopy_around.hpp"
 #include "scene/ray_scenes.hpp"
 
@@ -17,7 +18,8 @@ namespace farlod {
 
 FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
   if (!package.grid().cells.contains(cell)) return FarMapOfCell::outside_of_grid;
-  if (!package.has_far_map(cell)) return FarMapOfCell::missing;
+  if (!package.has_far_map(cell))
+    return package::is_natural_relief(package.manifest()) ? FarMapOfCell::needless : FarMapOfCell::missing;
   return package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon;
 }
 
@@ -26,6 +28,7 @@ EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
   if (far_map == FarMapOfCell::outside_of_grid || engine == Engine::exact) return whole_city;
   if (engine == Engine::near_only) return near_scene_alone;
   if (far_map == FarMapOfCell::missing) return engine == Engine::horizon ? horizons_alone : whole_city;
+  if (far_map == FarMapOfCell::needless) return engine == Engine::rays ? whole_city : pixels_and_whole_city;
   if (far_map == FarMapOfCell::box) return near_scene_and_box;
   if (engine == Engine::rays) return rays_against_horizons;
   return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
@@ -33,7 +36,8 @@ EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
 
 double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map) {
   const EvaluationMethod method = method_of(settings.engine, far_map);
-  const bool has_horizons = method == EvaluationMethod::horizons_alone || method == EvaluationMethod::horizons_and_rays;
+  const bool has_horizons = method == EvaluationMethod::horizons_alone || method == EvaluationMethod::horizons_and_rays ||
+                            method == EvaluationMethod::pixels_and_whole_city;
   const bool has_rays = method != EvaluationMethod::horizons_alone;
   // Bounds keep an allowed error, whatever lies between the samples; but crowns are seen at the samples alone
   if (settings.allowed_error && !settings.further.svf_total) return 0.0;
@@ -93,28 +97,12 @@ void Evaluation::make_canopy_city() const {
   if (field) canopy_->city.emplace(package.manifest(), *canopy_lattice_, std::move(*field), further.azimuths());
 }
 
-namespace {
-
-/// With fewer triangles than that for each pixel, edges are drawn sooner than rays march over pixels: blocks on level ground have
-/// 0.2, natural relief 2. docs/decisions/0032-a-march-over-pixels.md.
-constexpr double least_triangles_per_pixel = 0.5;
-/// With more walls than that for each pixel, edges tell better where horizons jump, and are not slower: surveys of towns have
-/// 0.1.
-constexpr double most_walls_per_pixel = 0.02;
-
-bool may_march_over_pixels(const package::Manifest& m) {
-  return m.heights() && !m.far_terrain && std::max(m.pixels->columns, m.pixels->rows) <= PixelField::most_along &&
-         static_cast<double>(m.triangles) >= least_triangles_per_pixel * static_cast<double>(m.pixels->columns) * m.pixels->rows;
-}
-
-}  // namespace
-
 const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
-  if (wants_bounds(answers) || further.needs_near_sky() || !may_march_over_pixels(package.manifest())) return nullptr;
+  if (wants_bounds(answers) || further.needs_near_sky() || !package::is_natural_relief(package.manifest())) return nullptr;
   std::call_once(pixels_->once, [this] {
     const PixelHeightsFile* const file = package.pixel_heights();
     // A package in memory has none
-    if (file == nullptr || walls_per_pixel(*package.manifest().pixels, file->joined()) > most_walls_per_pixel) return;
+    if (file == nullptr) return;
     pixels_->city.emplace(package.manifest(), file->height_m(), file->joined(), further.azimuths());
     file->let_go();
   });
@@ -131,12 +119,13 @@ SkyEvaluator::SkyEvaluator(const SkyEvaluator& other, const SkySettings& setting
 SkyEvaluator::SkyEvaluator(std::unique_ptr<const Evaluation> evaluation) : evaluation_(std::move(evaluation)) {
   using enum EvaluationMethod;
   const auto method = [this](EvaluationMethod m) -> auto& { return methods_[static_cast<std::size_t>(m)]; };
-  method(horizons_and_rays) = horizon_method(*evaluation_, true);
-  method(horizons_alone) = horizon_method(*evaluation_, false);
+  method(horizons_and_rays) = pixel_method(*evaluation_, horizon_method(*evaluation_, true));
+  method(horizons_alone) = pixel_method(*evaluation_, horizon_method(*evaluation_, false));
   method(rays_against_horizons) = ray_method(*evaluation_);
   method(near_scene_and_box) = near_scene_method(*evaluation_, true);
   method(near_scene_alone) = near_scene_method(*evaluation_, false);
   method(whole_city) = whole_city_method(*evaluation_);
+  method(pixels_and_whole_city) = pixel_method(*evaluation_, whole_city_method(*evaluation_));
 }
 
 SkyEvaluator::~SkyEvaluator() = default;

@@ -25,6 +25,7 @@ enum class FarMapOfCell {
   horizon,
   box,
   missing,         ///< the cell is one of the grid, and far maps were made for others
+  needless,        ///< the city is natural relief, over whose pixels rays march
   outside_of_grid  ///< there are no cells, and no far maps
 };
 
@@ -37,18 +38,21 @@ enum class EvaluationMethod {
   rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
   near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
   near_scene_alone,       ///< its ray meets no near tile
-  whole_city              ///< its ray meets no tile of the package
+  whole_city,             ///< its ray meets no tile of the package
+  pixels_and_whole_city   ///< it lies above the horizon of pixels; elsewhere, and for what these do not tell, as whole_city
 };
-inline constexpr std::size_t evaluation_method_count = 6;
+inline constexpr std::size_t evaluation_method_count = 7;
 
 /// The only place that decides which method answers a cell:
 ///
-///   engine      far map `horizon`       far map `box`        missing            outside of the grid
-///   automatic   horizons_and_rays       near_scene_and_box   whole_city         whole_city
-///   horizon     horizons_alone          near_scene_and_box   horizons_alone     whole_city
-///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city
-///   exact       whole_city              whole_city           whole_city         whole_city
-///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   whole_city
+///   engine      far map `horizon`       far map `box`        missing            needless                outside of the grid
+///   automatic   horizons_and_rays       near_scene_and_box   whole_city         pixels_and_whole_city   whole_city
+///   horizon     horizons_alone          near_scene_and_box   horizons_alone     pixels_and_whole_city   whole_city
+///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city              whole_city
+///   exact       whole_city              whole_city           whole_city         whole_city              whole_city
+///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   near_scene_alone        whole_city
+///
+/// Rays march over the pixels of natural relief before horizons are drawn, too.
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 class SkyMethod;

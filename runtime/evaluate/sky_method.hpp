@@ -93,6 +93,9 @@ class SkyMethod {
 // The evaluation must outlive the methods. Which one answers a cell says method_of (evaluate/sky_evaluator.hpp)
 /// Horizons, and rays in the gaps below overhangs where they are allowed; otherwise receivers that need them are refused.
 [[nodiscard]] std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed);
+/// Horizons of receivers above the pixels of natural relief, where these tell all that is asked for; `others` answers the rest.
+[[nodiscard]] std::unique_ptr<const SkyMethod> pixel_method(const Evaluation& evaluation,
+                                                            std::unique_ptr<const SkyMethod> others);
 /// Rays against horizons.
 [[nodiscard]] std::unique_ptr<const SkyMethod> ray_method(const Evaluation& evaluation);
 /// Rays against the near tiles, and a look-up in the box far map where it is asked for.

@@ -67,13 +67,6 @@ HighestAround HighestPixels::view() const {
           around_.shift};
 }
 
-double walls_per_pixel(const package::SurfacePixels& pixels, std::span<const std::uint8_t> joined) {
-  std::size_t joined_sides = 0;
-  for (const std::uint8_t pixel : joined) joined_sides += static_cast<std::size_t>(std::popcount(pixel & flags));
-  const double columns = pixels.columns, rows = pixels.rows, sides = (columns - 1.0) * rows + columns * (rows - 1.0);
-  return (sides - static_cast<double>(joined_sides)) / (columns * rows);
-}
-
 PixelField::PixelField(const package::SurfacePixels& pixels, std::span<const float> height_m,
                        std::span<const std::uint8_t> joined)
     : pixel_m_(pixels.step_m),

@@ -39,9 +39,6 @@ inline constexpr HighestPixels::Around around_far_step{2, 8, 5}, around_long_ste
 static_assert((1 << 2) * 8 >= far_step + 3 + 15 + 3 && (1 << 2) * 5 >= far_step + 3 + 3 + 3);
 static_assert((1 << 5) * 4 >= long_step + 3 + 15 + 31);
 
-/// How many sides between two pixels are walls, or the ends of what has heights. What is joined is that of PixelHeightsFile.
-[[nodiscard]] double walls_per_pixel(const package::SurfacePixels& pixels, std::span<const std::uint8_t> joined);
-
 /// A height with JoinedPixels, as PixelFieldView has it.
 [[nodiscard]] float flagged_height(float height_m, std::uint32_t joined);
 
@@ -60,9 +57,6 @@ class PixelField {
   }
   /// The four pixels of which this one is the south-west; those beyond the raster have no height.
   [[nodiscard]] FourPixels four_from(std::int32_t column, std::int32_t row) const;
-
-  /// More are too many to be counted by the kernels.
-  static constexpr std::uint32_t most_along = std::uint32_t{1} << 28;
 
  private:
   void fill(std::span<const float> height_m, std::span<const std::uint8_t> joined);

@@ -165,10 +165,11 @@ class Survey : public SurfaceModel {
     return read_raster(folder.path("map.tif"));
   }
   /// A square around the middle.
-  [[nodiscard]] static std::string box(double half_edge_m) {
+  [[nodiscard]] static std::string box(double half_edge_m) { return " --bbox " + corners(half_edge_m); }
+  [[nodiscard]] static std::string corners(double half_edge_m) {
     std::ostringstream text;
-    text << std::fixed << " --bbox " << town_middle.x - half_edge_m << ',' << town_middle.y - half_edge_m << ','
-         << town_middle.x + half_edge_m << ',' << town_middle.y + half_edge_m;
+    text << std::fixed << town_middle.x - half_edge_m << ',' << town_middle.y - half_edge_m << ',' << town_middle.x + half_edge_m
+         << ',' << town_middle.y + half_edge_m;
     return text.str();
   }
 };
@@ -187,9 +188,38 @@ TEST_F(Survey, IsMarchedOverAsRaysTellIt) {
   EXPECT_LE(largest, 0.004);
 }
 
+TEST_F(Survey, NeedsNoFarMaps) {
+  EXPECT_NE(said().find("no far maps are made"), std::string::npos) << said();
+  folder.must("farlod-info a.farlod > info.txt");
+  EXPECT_NE(folder.text_of("info.txt").find("kind horizon, in 0 of "), std::string::npos) << folder.text_of("info.txt");
+  folder.must("farlod-svf a.farlod -o march.tif --summary march.json" + box(3.0));
+  EXPECT_NE(folder.text_of("march.json").find("\"receivers_by_rays\": 0"), std::string::npos);
+  // What edges tell needs them where it is asked
+  folder.must("farlod-pack --terrain dsm.asc --crs EPSG:32632 --force -o b.farlod --area " + corners(6.0) + " > said.txt 2>&1");
+  EXPECT_EQ(said().find("no far maps are made"), std::string::npos) << said();
+}
+
+/// Receivers stand anywhere in their pixels, and look anywhere.
+TEST_F(Survey, IsMarchedOverFromAnyPlaceAsRaysTellIt) {
+  std::ostringstream points;
+  points << std::fixed << "x,y,azimuth,tilt\n";
+  for (int n = 0; n < 200; ++n)
+    points << town_middle.x + 9.0 * std::sin(1.3 * n) << ',' << town_middle.y + 9.0 * std::cos(0.7 * n) << ',' << (37 * n) % 360
+           << ',' << (n % 2 == 0 ? 0 : (11 * n) % 90) << '\n';
+  folder.write("points.csv", points.str());
+  folder.must("farlod-svf a.farlod -o marched.csv --points points.csv --height 1.5");
+  folder.must("farlod-svf a.farlod -o traced.csv --points points.csv --height 1.5 --engine exact --rays 20000");
+  const CsvTable marched(folder.text_of("marched.csv")), traced(folder.text_of("traced.csv"));
+  for (std::size_t n = 0; n < 200; ++n) EXPECT_NEAR(marched.number(n, "svf"), traced.number(n, "svf"), 0.004) << n;
+  const RasterFile grid = map("--grid 0.4" + box(3.0)), of_rays = map("--grid 0.4 --engine exact --rays 20000" + box(3.0));
+  ASSERT_EQ(grid.values.size(), of_rays.values.size());
+  for (std::size_t n = 0; n < grid.values.size(); ++n) EXPECT_NEAR(*grid.values[n], *of_rays.values[n], 0.004) << n;
+}
+
 TEST_F(Survey, HorizonsOfEdgesAreThoseOfTheMarch) {
-  // Bounds are those of edges
+  // Bounds are those of edges, where there are far maps
   const RasterFile marched = map(box(5.0));
+  folder.must("farlod-pack --terrain dsm.asc --crs EPSG:32632 --force -o a.farlod --area " + corners(6.0));
   folder.must("farlod-svf a.farlod -o bounded.tif --height 1.5 --bounds" + box(5.0));
   const RasterFile low = read_raster(folder.path("bounded.tif"), 2), high = read_raster(folder.path("bounded.tif"), 3);
   std::size_t outside = 0;
