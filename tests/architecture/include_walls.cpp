@@ -44,7 +44,7 @@ constexpr Wall walls[] = {
     {"^runtime/", NOWHERE, "^" EXPAT_HEADERS, "the runtime never needs Expat"},
     {"^runtime/", "^runtime/(inputs|results)/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
      "the runtime library never needs GDAL; *_gdal.cpp of inputs and results are a library apart"},
-    {"^runtime/(app|inputs|results|sun|view)/", NOWHERE,
+    {"^runtime/(app|inputs|results|sun|view|weather)/", NOWHERE,
      "^(package|occlusion|scene|horizon|canopy|rays|receivers|evaluate|run|base/"
      "(?!durable_file|expects|lower_case|point_columns))",
      "a program is a user of the library"},

@@ -141,6 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"runtime/results/picture/a.cpp", "#include <pango/pangocairo.h>", "the wrapper of Cairo"},
                     Planted{"runtime/sun/a.cpp", "#include <erfa.h>", "ERFA's wrapper"},
                     Planted{"runtime/sun/a.cpp", "#include \"run/facing.hpp\"", "a user of the library"},
+                    Planted{"runtime/weather/a.cpp", "#include \"evaluate/sky_parts.hpp\"", "a user of the library"},
                     Planted{"runtime/inputs/a.cpp", "#include \"canopy/canopy_sky.hpp\"", "a user of the library"},
                     Planted{"runtime/canopy/a.cpp", "#include \"scene/ray_scenes.hpp\"", "above horizons"},
                     Planted{"preprocess/farmap/a.cpp", "#include <iostream>", "neither print"},
