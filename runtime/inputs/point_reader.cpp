@@ -13,93 +13,20 @@
 #include <utility>
 
 #include "base/point_columns.hpp"
+#include "inputs/text_records.hpp"
 
 namespace farlod {
 namespace {
-
-/// A row of a table in text, and the line on which it begins.
-struct TextRecord {
-  std::size_t line = 0;
-  std::vector<std::string> fields;  ///< without quotes and the blanks around them
-};
-
-std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  return text.starts_with(mark) ? text.substr(mark.size()) : text;
-}
-
-char separator_of(std::string_view row) {
-  bool tab = false, semicolon = false, quoted = false;
-  for (const char c : row) {
-    if (c == '"') quoted = !quoted;
-    tab = tab || (!quoted && c == '\t');
-    semicolon = semicolon || (!quoted && c == ';');
-  }
-  return tab ? '\t' : semicolon ? ';' : ',';
-}
 
 std::string_view first_row(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of("\r\n"), text.size());
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-std::string trimmed(std::string_view field) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!field.empty() && blank(field.front())) field.remove_prefix(1);
-  while (!field.empty() && blank(field.back())) field.remove_suffix(1);
-  return std::string(field);
-}
-
-/// Walks through the text once, a character at a time.
-class RecordSplitter {
- public:
-  explicit RecordSplitter(char separator) : separator_(separator) {}
-
-  void take(char c) {
-    line_ += c == '\n' ? 1 : 0;
-    if (c == '"')
-      take_quote();
-    else if (quoted_ || (c != separator_ && c != '\n'))
-      field_ += c;
-    else
-      end_field(c);
-    after_closing_quote_ = c == '"' && !quoted_;
-  }
-  std::vector<TextRecord> finish() {
-    end_field('\n');
-    return std::move(records_);
-  }
-
- private:
-  void take_quote() {
-    // A quote right after a closing one stands for the character itself
-    if (after_closing_quote_) field_ += '"';
-    quoted_ = !quoted_;
-  }
-  void end_field(char end) {
-    record_.fields.push_back(trimmed(field_));
-    field_.clear();
-    if (end == separator_) return;
-    const bool empty = std::all_of(record_.fields.begin(), record_.fields.end(), [](const std::string& f) { return f.empty(); });
-    if (!empty) records_.push_back(std::move(record_));
-    record_ = {line_, {}};
-  }
-
-  char separator_;
-  bool quoted_ = false, after_closing_quote_ = false;
-  std::size_t line_ = 1;
-  std::string field_;
-  TextRecord record_{1, {}};
-  std::vector<TextRecord> records_;
-};
-
-/// Splits a table into rows and fields. The separator is the first of tab, semicolon and comma that the first row has outside of
-/// quotes. Knows quoted fields (RFC 4180), CRLF and a byte order mark; leaves out empty lines.
-std::vector<TextRecord> split_records(std::string_view text) {
+/// The separator is that of the first row. A byte order mark does no harm.
+std::vector<TextRecord> records_in(std::string_view text) {
   text = without_byte_order_mark(text);
-  RecordSplitter splitter(separator_of(first_row(text)));
-  for (const char c : text) splitter.take(c);
-  return splitter.finish();
+  return split_records(text, separator_of(first_row(text)));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::size_t line, const std::string& what) {
@@ -197,7 +124,7 @@ bool may_be_lon_lat(const RequestedPoint& p) { return std::abs(p.x) <= 360.0 && 
 }  // namespace
 
 RequestedPoints read_points_csv(const std::filesystem::path& path) {
-  const std::vector<TextRecord> records = split_records(text_of(path));
+  const std::vector<TextRecord> records = records_in(text_of(path));
   if (records.empty())
     throw PointsError(path.string() + ": the file holds no points; write one in each row, as x,y or with a header row");
   const bool header = is_header(records.front());
@@ -223,12 +150,12 @@ std::vector<std::string> read_header_csv(const std::filesystem::path& path) {
   std::ifstream stream = open_table(path);
   std::string line;
   std::getline(stream, line);
-  const std::vector<TextRecord> records = split_records(line);
+  const std::vector<TextRecord> records = records_in(line);
   return records.empty() || !is_header(records.front()) ? std::vector<std::string>() : records.front().fields;
 }
 
 Attributes read_table_csv(const std::filesystem::path& path) {
-  const std::vector<TextRecord> records = split_records(text_of(path));
+  const std::vector<TextRecord> records = records_in(text_of(path));
   if (records.empty() || !is_header(records.front()))
     throw PointsError(path.string() + ": the table has no header row; name its columns in the first row");
   std::vector<std::size_t> all(records.front().fields.size());
