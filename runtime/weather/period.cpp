@@ -76,13 +76,13 @@ PeriodPart checked_first_part(const ClockText& written, std::string_view text) {
   return first_part(written);
 }
 
-/// What the second part leaves out is that of the first.
-PeriodPart second_part(const ClockText& written, const PeriodPart& first, std::string_view text) {
+/// What the second part leaves out is that of the first. `of_any_year`: the first has no year.
+PeriodPart second_part(const ClockText& written, const PeriodPart& first, bool of_any_year, std::string_view text) {
   PeriodPart part = first;
   const std::size_t numbers = numbers_of(first.precision), given = written.date.size();
   const bool whole_date = given == numbers;
   if (written.time_of_day.has_value() != (first.precision == Precision::minute) || given > numbers ||
-      (given > 0 && whole_date != written.begins_with_year))
+      (given > 0 && whole_date != written.begins_with_year) || (whole_date && of_any_year))
     refuse_period(text, "its two ends are not alike");
   for (std::size_t n = 0; n < given; ++n) part.date[numbers - given + n] = written.date[n];
   part.time_of_day = written.time_of_day.value_or(part.time_of_day);
@@ -117,7 +117,7 @@ Period period_in(std::string_view text) {
   }
   const ClockText written_end = written_part(text.substr(slash + 1), text);
   period.clock_ahead_of_utc = clock_of(written, written_end, text);
-  set_end(period, second_part(written_end, first, text));
+  set_end(period, second_part(written_end, first, period.of_any_year, text));
   return period;
 }
 
