@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "farlod/angle.hpp"
@@ -33,6 +34,11 @@ struct SunDirection {
 /// and depends on the weather.
 [[nodiscard]] SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
                                          const Atmosphere& atmosphere = {});
+
+/// The same of many times, in any order: where many follow each other in a day, in a tenth of the time, and to .0002° the same.
+[[nodiscard]] std::vector<SunDirection> sun_directions(
+    const PlaceOnEarth& place, std::span<const std::chrono::sys_time<std::chrono::milliseconds>> times_utc,
+    const Atmosphere& atmosphere = {});
 
 /// The directions of the sun above the horizon, in the middle of steps of so many minutes, from the midnight before `first` on
 /// for some days. Midnight is that of local mean time: hours of sunshine depend on no time zone.

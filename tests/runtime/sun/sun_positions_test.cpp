@@ -33,6 +33,27 @@ TEST(SunDirection, IsUnknownBefore1960) {
   EXPECT_THROW((void)sun_direction(place(0, 50), sys_days{year{1900} / January / 1}), InvalidArgument);
 }
 
+TEST(SunDirections, AreThoseOfSingleTimes) {
+  // The axis is that of noon (.2″), all else is a thousandth of that; at sunrise, refraction halves what elevations differ by,
+  // and an azimuth near the zenith is off by more
+  constexpr double axis_deg = 0.0002;
+  const PlaceOnEarth somewhere = place(139.6, 35.9, 20.0);
+  std::vector<sys_time<milliseconds>> times;
+  for (int n = 0; n < 400; ++n) times.push_back(sys_days{year{2016} / December / 20} + n * minutes(1337) + milliseconds(7));
+  times.push_back(times.front());
+  times.push_back(sys_days{year{2016} / December / 31} + hours(24) - milliseconds(1));  // in the leap second's day
+  const std::vector<SunDirection> many = sun_directions(somewhere, times, {990.0, 20.0});
+  ASSERT_EQ(many.size(), times.size());
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    const SunDirection one = sun_direction(somewhere, times[n], {990.0, 20.0});
+    EXPECT_NEAR(many[n].elevation.degrees(), one.elevation.degrees(), axis_deg) << n;
+    EXPECT_NEAR(many[n].azimuth.degrees(), one.azimuth.degrees(), axis_deg / cos(one.elevation)) << n;
+  }
+  EXPECT_TRUE(sun_directions(somewhere, {}).empty());
+  EXPECT_THROW((void)sun_directions(somewhere, std::vector<sys_time<milliseconds>>{sys_days{year{1900} / January / 1}}),
+               InvalidArgument);
+}
+
 TEST(SunPositions, OfAnEquinoxLastHalfADay) {
   // Refraction and nothing else makes the day longer at the equator: by some 5 minutes, as the sun rises upright by 15° an hour
   const auto positions = sun_positions(place(10, 0), sys_days{year{2026} / March / 20}, 1, minutes(1));
