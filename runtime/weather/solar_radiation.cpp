@@ -3,6 +3,7 @@
 #include "weather/solar_radiation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace farlod {
@@ -35,15 +36,13 @@ double dew_point_c(double temperature_c, double humidity_percent) {
   return b_c * g / (a - g);
 }
 
-double sine_of_sun(const PlaceOnEarth& place, SysMilliseconds time_utc) {
-  return std::max(0.0, sin(sun_direction(place, time_utc).elevation));
-}
-
 double mean_sine_of_sun(const PlaceOnEarth& place, SysMilliseconds middle_utc, std::chrono::milliseconds duration) {
   // An hour at sunrise has light in a part of it: the middles of six parts leave an error below a hundredth of the sine at noon
   constexpr int parts = 6;
+  std::array<SysMilliseconds, parts> times;
+  for (int n = 0; n < parts; ++n) times[static_cast<std::size_t>(n)] = middle_utc + duration * (2 * n + 1 - parts) / (2 * parts);
   double sum = 0.0;
-  for (int n = 0; n < parts; ++n) sum += sine_of_sun(place, middle_utc + duration * (2 * n + 1 - parts) / (2 * parts));
+  for (const SunDirection& sun : sun_directions(place, times)) sum += std::max(0.0, sin(sun.elevation));
   return sum / parts;
 }
 

@@ -23,10 +23,8 @@ namespace farlod {
 /// The dew point of air (Magnus's formula, with the numbers of Alduchov and Eskridge 1996). `humidity_percent` is larger than 0.
 [[nodiscard]] double dew_point_c(double temperature_c, double humidity_percent);
 
-/// The sine of the sun's elevation, 0 below the horizon.
-[[nodiscard]] double sine_of_sun(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc);
-
-/// Its mean over an interval: what a level plane gets of each W/m² of direct irradiance.
+/// The mean over an interval of the sine of the sun's elevation, 0 below the horizon: what a level plane gets of each W/m² of
+/// direct irradiance.
 [[nodiscard]] double mean_sine_of_sun(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> middle_utc,
                                       std::chrono::milliseconds duration);
 

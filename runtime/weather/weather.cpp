@@ -53,20 +53,21 @@ void set_clock(Weather& weather, milliseconds of_file) {
                     clock_text(weather.clock_ahead_of_utc)));
 }
 
-WeatherInterval clear_interval(const PlaceOnEarth& place, std::chrono::sys_time<milliseconds> middle_utc, milliseconds duration,
-                               double linke_turbidity) {
-  WeatherInterval interval;
-  interval.middle_utc = middle_utc;
-  interval.duration = duration;
-  interval.pressure_hpa = standard_pressure_hpa(place.height_m);
-  const Angle elevation = sun_direction(place, middle_utc, {interval.pressure_hpa, interval.temperature_c}).elevation;
-  const ClearAir air{relative_air_mass(elevation) * interval.pressure_hpa / standard_pressure_hpa(0.0), linke_turbidity,
-                     place.height_m};
-  const ClearSky sky = clear_sky(elevation, air, extraterrestrial_w_m2(middle_utc));
-  interval.global_w_m2 = sky.global_w_m2;
-  interval.direct_normal_w_m2 = sky.direct_normal_w_m2;
-  interval.diffuse_w_m2 = sky.diffuse_w_m2;
-  return interval;
+/// Sets the irradiances of a clear sky in intervals of which the times are set.
+void fill_with_clear_sky(std::vector<WeatherInterval>& intervals, const PlaceOnEarth& place, double linke_turbidity) {
+  const double pressure_hpa = standard_pressure_hpa(place.height_m);
+  std::vector<std::chrono::sys_time<milliseconds>> times;
+  for (const WeatherInterval& interval : intervals) times.push_back(interval.middle_utc);
+  const std::vector<SunDirection> suns = sun_directions(place, times, {pressure_hpa, WeatherInterval().temperature_c});
+  for (std::size_t n = 0; n < intervals.size(); ++n) {
+    const double air_mass = relative_air_mass(suns[n].elevation) * pressure_hpa / standard_pressure_hpa(0.0);
+    const ClearSky sky =
+        clear_sky(suns[n].elevation, {air_mass, linke_turbidity, place.height_m}, extraterrestrial_w_m2(times[n]));
+    intervals[n].pressure_hpa = pressure_hpa;
+    intervals[n].global_w_m2 = sky.global_w_m2;
+    intervals[n].direct_normal_w_m2 = sky.direct_normal_w_m2;
+    intervals[n].diffuse_w_m2 = sky.diffuse_w_m2;
+  }
 }
 
 }  // namespace
@@ -104,11 +105,13 @@ Weather clear_sky_weather(const PlaceOnEarth& place, const Period& period, milli
   weather.place = place;
   weather.clock_ahead_of_utc = period.clock_ahead_of_utc ? *period.clock_ahead_of_utc : clock_by_longitude(place);
   for (ClockTime begin = period.begin; begin < period.end; begin += step) {
-    const milliseconds duration = std::min(step, period.end - begin);
-    const ClockTime middle_utc = begin + duration / 2 - weather.clock_ahead_of_utc;
-    weather.intervals.push_back(
-        clear_interval(place, std::chrono::sys_time<milliseconds>(middle_utc.time_since_epoch()), duration, linke_turbidity));
+    WeatherInterval interval;
+    interval.duration = std::min(step, period.end - begin);
+    const ClockTime middle = begin + interval.duration / 2;
+    interval.middle_utc = std::chrono::sys_time<milliseconds>(middle.time_since_epoch() - weather.clock_ahead_of_utc);
+    weather.intervals.push_back(interval);
   }
+  fill_with_clear_sky(weather.intervals, place, linke_turbidity);
   return weather;
 }
 

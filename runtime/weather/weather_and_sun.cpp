@@ -16,7 +16,7 @@ using std::chrono::hours;
 using std::chrono::milliseconds;
 using std::chrono::minutes;
 
-/// So many of the intervals that `choose`, evenly from all: the sun's position takes 50 µs.
+/// So many of the intervals that `choose`, evenly from all: the sun's position takes its time.
 template <class Choose>
 std::vector<WeatherInterval> sample_of(const std::vector<WeatherInterval>& intervals, std::size_t at_most, const Choose& choose) {
   std::vector<WeatherInterval> chosen;
@@ -33,9 +33,18 @@ std::vector<WeatherInterval> lit_intervals(const std::vector<WeatherInterval>& i
   return sample_of(intervals, at_most, [](const WeatherInterval& interval) { return interval.global_w_m2 > lit_w_m2; });
 }
 
-bool is_night(const WeatherInterval& interval, const PlaceOnEarth& place) {
-  constexpr double twilight_deg = -1.0;
-  for (const milliseconds after_middle : {milliseconds(0), -interval.duration / 2, interval.duration / 2})
+/// Where the sun is in the middles of intervals, were it so much later.
+std::vector<SunDirection> suns_of(const std::vector<WeatherInterval>& intervals, const PlaceOnEarth& place, milliseconds shift) {
+  std::vector<std::chrono::sys_time<milliseconds>> times;
+  for (const WeatherInterval& interval : intervals) times.push_back(interval.middle_utc + shift);
+  return sun_directions(place, times);
+}
+
+constexpr double twilight_deg = -1.0;
+
+/// Whether the sun stays down at the ends of an interval, too, in whose middle it is.
+bool is_night_throughout(const WeatherInterval& interval, const PlaceOnEarth& place) {
+  for (const milliseconds after_middle : {-interval.duration / 2, interval.duration / 2})
     if (sun_direction(place, interval.middle_utc + after_middle).elevation.degrees() > twilight_deg) return false;
   return true;
 }
@@ -48,8 +57,8 @@ hours best_zone_shift(const std::vector<WeatherInterval>& intervals, const Place
   double best_sum = -std::numeric_limits<double>::infinity();
   for (hours shift(-14); shift <= hours(14); ++shift) {
     double sum = 0.0;
-    for (const WeatherInterval& interval : lit)
-      sum += interval.global_w_m2 * sin(sun_direction(place, interval.middle_utc + shift).elevation);
+    const std::vector<SunDirection> suns = suns_of(lit, place, shift);
+    for (std::size_t n = 0; n < lit.size(); ++n) sum += lit[n].global_w_m2 * sin(suns[n].elevation);
     if (sum <= best_sum) continue;
     best = shift;
     best_sum = sum;
@@ -68,11 +77,13 @@ void check_nights(WeatherTable& table, const std::vector<WeatherInterval>& inter
   constexpr double largest_share = 0.01;
   double all = 0.0, at_night = 0.0;
   std::optional<WeatherInterval> first;
-  for (const WeatherInterval& interval : lit_intervals(intervals, enough)) {
-    all += interval.global_w_m2;
-    if (!is_night(interval, place)) continue;
-    if (!first) first = interval;
-    at_night += interval.global_w_m2;
+  const std::vector<WeatherInterval> lit = lit_intervals(intervals, enough);
+  const std::vector<SunDirection> suns = suns_of(lit, place, milliseconds(0));
+  for (std::size_t n = 0; n < lit.size(); ++n) {
+    all += lit[n].global_w_m2;
+    if (suns[n].elevation.degrees() > twilight_deg || !is_night_throughout(lit[n], place)) continue;
+    if (!first) first = lit[n];
+    at_night += lit[n].global_w_m2;
   }
   if (!first) return;
   const std::string night =
@@ -93,10 +104,11 @@ void check_nights(WeatherTable& table, const std::vector<WeatherInterval>& inter
 /// later.
 double mismatch_of(const std::vector<WeatherInterval>& intervals, const PlaceOnEarth& place, minutes shift) {
   double all = 0.0, off = 0.0;
-  for (const WeatherInterval& interval : intervals) {
-    const double sine = sine_of_sun(place, interval.middle_utc + shift);
-    all += interval.global_w_m2;
-    off += std::abs(interval.global_w_m2 - interval.direct_normal_w_m2 * sine - interval.diffuse_w_m2);
+  const std::vector<SunDirection> suns = suns_of(intervals, place, shift);
+  for (std::size_t n = 0; n < intervals.size(); ++n) {
+    const double sine = std::max(0.0, sin(suns[n].elevation));
+    all += intervals[n].global_w_m2;
+    off += std::abs(intervals[n].global_w_m2 - intervals[n].direct_normal_w_m2 * sine - intervals[n].diffuse_w_m2);
   }
   return all > 0.0 ? off / all : 0.0;
 }
@@ -114,11 +126,14 @@ double level_mismatch_of(const std::vector<WeatherInterval>& intervals) {
 /// Times at which the sun's sine in the middle of an hour is its mean.
 std::vector<WeatherInterval> sunny_intervals(const std::vector<WeatherInterval>& intervals, const PlaceOnEarth& place) {
   constexpr std::size_t enough = 400;
-  constexpr double sunny_w_m2 = 50.0, high_sine = 0.17;  // 10°
-  std::vector<WeatherInterval> sunny =
+  constexpr double sunny_w_m2 = 50.0, high_deg = 10.0;
+  const std::vector<WeatherInterval> sunny =
       sample_of(intervals, enough, [](const WeatherInterval& interval) { return interval.direct_normal_w_m2 > sunny_w_m2; });
-  std::erase_if(sunny, [&](const WeatherInterval& interval) { return sine_of_sun(place, interval.middle_utc) < high_sine; });
-  return sunny;
+  const std::vector<SunDirection> suns = suns_of(sunny, place, milliseconds(0));
+  std::vector<WeatherInterval> high;
+  for (std::size_t n = 0; n < sunny.size(); ++n)
+    if (suns[n].elevation.degrees() > high_deg) high.push_back(sunny[n]);
+  return high;
 }
 
 void check_parts(WeatherTable& table, const std::vector<WeatherInterval>& intervals, const PlaceOnEarth& place) {

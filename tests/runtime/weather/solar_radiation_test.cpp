@@ -96,7 +96,7 @@ TEST(MeanSineOfTheSun, IsItsIntegral) {
   EXPECT_NEAR(sum / 24.0, 1.0 / std::numbers::pi, 1e-3);
   const double first_hour = mean_sine_of_sun(equator, day + noon - minutes(330), hours(1));
   EXPECT_NEAR(first_hour, (1.0 - std::cos(std::numbers::pi / 12)) / (std::numbers::pi / 12), 0.003);
-  EXPECT_EQ(sine_of_sun(equator, day), 0.0);
+  EXPECT_EQ(mean_sine_of_sun(equator, day, hours(1)), 0.0);
 }
 
 }  // namespace
