@@ -35,7 +35,8 @@ struct SunDirection {
 [[nodiscard]] SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
                                          const Atmosphere& atmosphere = {});
 
-/// The same of many times, in any order: where many follow each other in a day, in a thirtieth of the time, and to .0002° the same.
+/// The same of many times, in any order: where many follow each other in a day, in a thirtieth of the time, and to .0002° the
+/// same.
 [[nodiscard]] std::vector<SunDirection> sun_directions(
     const PlaceOnEarth& place, std::span<const std::chrono::sys_time<std::chrono::milliseconds>> times_utc,
     const Atmosphere& atmosphere = {});

@@ -140,7 +140,7 @@ milliseconds step_of(const std::vector<WeatherRow>& rows, const WeatherText& tex
   std::ranges::nth_element(steps, middle);
   if (*middle <= milliseconds(0)) text.refuse_file("the times of the rows do not rise; sort them");
   if (*middle > longest)
-    text.refuse_file("the rows are " + hours_text(*middle) + " apart, in which the sun goes too far; give hours or less");
+    text.refuse_file("the rows are " + length_text(*middle) + " apart, in which the sun goes too far; give hours or less");
   return *middle;
 }
 
@@ -153,7 +153,7 @@ std::size_t first_line_of(const WeatherText& text) {
 void tell_meaning(WeatherTable& table, const WeatherColumns& columns, const std::string& name) {
   const char* meaning = columns.middle_in_steps > 0.0 ? "beginning" : columns.middle_in_steps < 0.0 ? "end" : "middle";
   table.remarks.push_back(
-      fmt::format("The times of {} are taken for the {} of intervals of {}.", name, meaning, hours_text(table.step)));
+      fmt::format("The times of {} are taken for the {} of intervals of {}.", name, meaning, length_text(table.step)));
 }
 
 }  // namespace

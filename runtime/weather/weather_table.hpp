@@ -70,8 +70,8 @@ class WeatherText {
 [[nodiscard]] std::string place_text(const PlaceOnEarth& place);
 /// A clock: `UTC+9`, `UTC−3:30`.
 [[nodiscard]] std::string clock_text(std::chrono::milliseconds ahead_of_utc);
-/// A length of time in hours: `1 h`, `0.25 h`.
-[[nodiscard]] std::string hours_text(std::chrono::milliseconds length);
+/// A length of time: `1.5 h`, `15 min`.
+[[nodiscard]] std::string length_text(std::chrono::milliseconds length);
 /// The beginning of a day. Refuses what is none, as line `n`.
 [[nodiscard]] ClockTime day_of(const WeatherText& text, std::size_t n, int year, int month, int day);
 /// The place of three fields. Refuses what is none, as line `n`.

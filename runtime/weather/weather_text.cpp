@@ -120,8 +120,10 @@ std::string clock_text(std::chrono::milliseconds ahead_of_utc) {
   return "UTC" + sign + (size % 60 == 0 ? fmt::format("{}", size / 60) : fmt::format("{}:{:02}", size / 60, size % 60));
 }
 
-std::string hours_text(std::chrono::milliseconds length) {
-  return fmt::format("{:.7g} h", std::chrono::duration<double, std::chrono::hours::period>(length).count());
+std::string length_text(std::chrono::milliseconds length) {
+  using std::chrono::duration, std::chrono::hours, std::chrono::minutes;
+  if (length < hours(1)) return fmt::format("{:.4g} min", duration<double, minutes::period>(length).count());
+  return fmt::format("{:.7g} h", duration<double, hours::period>(length).count());
 }
 
 ClockTime day_of(const WeatherText& text, std::size_t n, int year, int month, int day) {

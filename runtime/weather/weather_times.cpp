@@ -88,7 +88,7 @@ void check_times(WeatherTable& table, const WeatherText& text) {
   const std::string more = gaps.size() == 1 ? "" : fmt::format(", the first of {} gaps", gaps.size());
   const bool cut_off = gaps.back().after_line == table.rows.back().line;
   table.remarks.push_back(fmt::format("{} has no rows for {}: from {} to {} (line {}){}. Sums are of the others alone.{}",
-                                      text.name(), hours_text(missing), gap_time(table, first.begin), gap_time(table, first.end),
+                                      text.name(), length_text(missing), gap_time(table, first.begin), gap_time(table, first.end),
                                       first.after_line + 1, more,
                                       cut_off ? " It ends early: if it was cut off, get it again." : ""));
 }

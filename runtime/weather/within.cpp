@@ -152,7 +152,7 @@ void tell_lack(Weather& result, const std::vector<PeriodPiece>& pieces, const Pe
   pass(period.end);
   if (!first) return;
   result.remarks.push_back(fmt::format("Of the {} of {}, the weather lacks {}, the first at {}: sums are of the others alone.",
-                                       hours_text(period.end - period.begin), period.text, hours_text(missing),
+                                       length_text(period.end - period.begin), period.text, length_text(missing),
                                        time_text(*first)));
 }
 

@@ -45,6 +45,16 @@ TEST(WeatherColumns, TimeIsTheBeginningAndEndAndMiddleAreTheirs) {
   }
 }
 
+TEST(WeatherColumns, LastUntilTheNextRow) {
+  const Weather weather = weather_in(
+      "time,global,direct,diffuse\n2019-06-20T00:00Z,0,0,0\n2019-06-20T00:10Z,0,0,0\n2019-06-20T00:30Z,0,0,0\n2019-06-20T00:40Z,"
+      "0,0,0\n");
+  EXPECT_EQ(weather.intervals.back().duration, minutes(10));
+  EXPECT_EQ(weather.intervals.back().middle_utc, sys_days{year{2019} / June / 20} + minutes(45));
+  EXPECT_THAT(weather.remarks[0], HasSubstr("intervals of 10 min."));
+  EXPECT_THAT(weather.remarks[1], HasSubstr("no rows for 10 min: from 2019-06-20 00:20 to 2019-06-20 00:30 (line 3). Sums"));
+}
+
 TEST(WeatherColumns, WrongMeaningsAreTold) {
   EXPECT_THAT(weather_in(two_days("time,global,direct,diffuse", 60)).remarks.back(), HasSubstr("were its times 60 min earlier"));
 }
