@@ -119,7 +119,7 @@ void add_minutes(WeatherTable& table, const std::vector<int>& minutes_of_rows, i
   const bool from_0 = std::ranges::count(minutes_of_rows, 0) > 0 && std::ranges::count(minutes_of_rows, 60) == 0;
   const int step = 60 / records_an_hour;
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
-    const int minute = minutes_of_rows[n] == 0 && !from_0 ? 60 : minutes_of_rows[n];
+    const int minute = minutes_of_rows[n];
     if (minute % step != 0)
       text.refuse(table.rows[n].line,
                   fmt::format("the minute is {}, where the file has {} rows an hour", minute, records_an_hour));

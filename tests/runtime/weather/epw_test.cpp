@@ -197,6 +197,8 @@ TEST(Epw, HeadersThatAreNoneAreRefused) {
   file.zone = "60";
   EXPECT_THAT(complaint_about(file.text()), HasSubstr("weather.epw:1: the time zone 60 is none"));
   file.zone = "1";
+  file.periods = "DATA PERIODS,1,0,Data,Sunday,6/1,6/30";
+  EXPECT_THAT(complaint_about(file.text()), HasSubstr("weather.epw:8: there cannot be 0 records an hour"));
   file.periods = "DATA PERIODS,1,7,Data,Sunday,6/1,6/30";
   EXPECT_THAT(complaint_about(file.text()), HasSubstr("weather.epw:8: there cannot be 7 records an hour"));
   file.periods = "DATA PERIODS,1,2,Data,Sunday,6/1,6/30";

@@ -106,6 +106,17 @@ TEST(WeatherColumns, GlobalAloneIsSplitAfterErbs) {
   }
 }
 
+TEST(WeatherColumns, DirectIrradianceOfALowSunIsNoMoreThanThatOfTheSun) {
+  // The sun sets at 20:04 UTC, 4 minutes after the second hour began
+  const Weather weather = weather_in("time,global,diffuse\n2019-06-20T19:00Z,200,20\n2019-06-20T20:00Z,10,5\n");
+  const WeatherInterval& low = weather.intervals[0];
+  EXPECT_NEAR(low.direct_normal_w_m2, 1361.0 / (1.0162 * 1.0162), 1.0);
+  EXPECT_GT(low.diffuse_w_m2, 100.0);
+  EXPECT_LT(low.diffuse_w_m2, 200.0);
+  EXPECT_EQ(weather.intervals[1].direct_normal_w_m2, 0.0);
+  EXPECT_EQ(weather.intervals[1].diffuse_w_m2, 10.0);
+}
+
 TEST(WeatherColumns, ThatNeedTheSunNeedAPlace) {
   EXPECT_THAT(complaint_about(two_days("time,global,beam,sky", 0), std::nullopt),
               HasSubstr("the irradiances need the sun to be completed, and the place is not known"));
