@@ -106,7 +106,7 @@ class IrradianceFiller {
     tell(
         remarks, filled_.by_erbs, rows,
         "global irradiance stands alone: it is split into direct and diffuse after Erbs et al. 1982, which is right for the mean "
-        "of many hours, and in a single one off by a fifth");
+        "of many hours, and rough for a single one");
   }
 
  private:

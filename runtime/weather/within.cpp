@@ -151,9 +151,10 @@ void tell_lack(Weather& result, const std::vector<PeriodPiece>& pieces, const Pe
   }
   pass(period.end);
   if (!first) return;
+  // A typical year has no year to tell
+  const std::string when = time_text(*first).substr(period.of_any_year && result.years == WeatherYears::typical ? 5 : 0);
   result.remarks.push_back(fmt::format("Of the {} of {}, the weather lacks {}, the first at {}: sums are of the others alone.",
-                                       length_text(period.end - period.begin), period.text, length_text(missing),
-                                       time_text(*first)));
+                                       length_text(period.end - period.begin), period.text, length_text(missing), when));
 }
 
 }  // namespace

@@ -130,6 +130,14 @@ TEST(Within, TypicalWeatherIsThatOfEachYear) {
   EXPECT_THAT(within(typical, period_in("02")).remarks, IsEmpty());
 }
 
+TEST(Within, ALackOfTypicalWeatherHasNoYear) {
+  Weather typical = typical_hours();
+  typical.intervals.erase(typical.intervals.begin() + 1);
+  EXPECT_THAT(within(typical, period_in("01")).remarks, ElementsAre(HasSubstr("lacks 1 h, the first at 01-01 01:00: sums")));
+  EXPECT_THAT(within(typical, period_in("2026-01")).remarks,
+              ElementsAre(HasSubstr("lacks 1 h, the first at 2026-01-01 01:00: sums")));
+}
+
 TEST(Within, AWinterOfTypicalWeatherIsInItsOrder) {
   const Weather typical = typical_hours();
   for (const char* winter : {"2025-11/2026-02", "11/02"}) {
