@@ -13,6 +13,7 @@
 #include "farlod/angle.hpp"
 #include "farlod/canopy.hpp"
 #include "farlod/export.hpp"
+#include "farlod/light.hpp"
 #include "farlod/word.hpp"
 
 namespace farlod {
@@ -27,13 +28,6 @@ enum class SkyPatchSet : std::uint8_t {
 };
 inline constexpr std::array<Word<SkyPatchSet>, 3> sky_patch_words{
     {{"none", SkyPatchSet::none}, {"tregenza", SkyPatchSet::tregenza}, {"reinhart", SkyPatchSet::reinhart}}};
-
-/// Where the sun is for some time. What lies at the horizon or below it is no sunshine.
-struct SunPosition {
-  Angle azimuth;  ///< clockwise from true north
-  Angle elevation;
-  double hours = 0.0;  ///< that this position stands for
-};
 
 /// What is computed beside the sky view factor, from the same horizons. Where a receiver is answered by rays alone
 /// (EvaluationMethod of docs/stages/evaluate.md), the same is made of rays for each azimuth.

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "radiation/light_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "farlod/point.hpp"
+#include "radiation/perez_sky.hpp"
+#include "radiation/sky_grid.hpp"
+
+namespace farlod {
+namespace {
+
+using std::numbers::pi;
+
+std::vector<double> turns(std::size_t count = 320) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k < count; ++k) result.push_back((static_cast<double>(k) + 0.5) / static_cast<double>(count));
+  return result;
+}
+
+/// East, north, up.
+Point3d tilted(double tilt_deg, double azimuth_deg) {
+  const Angle tilt = Angle::degrees(tilt_deg), azimuth = Angle::degrees(azimuth_deg);
+  return {sin(tilt) * sin(azimuth), sin(tilt) * cos(azimuth), cos(tilt)};
+}
+
+/// What falls on a plane above a horizon that is even.
+std::vector<float> on_plane(const LightTable& table, const std::vector<double>& at, const Point3d& normal,
+                            double horizon_slope = 0.0) {
+  std::vector<float> sums(table.layers());
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double turn = 2.0 * pi * at[k];
+    const double outward = normal.x * std::sin(turn) + normal.y * std::cos(turn);
+    // o + w t > 0
+    double from = horizon_slope;
+    if (outward <= 0.0) from = normal.z > 1e-9 ? std::max(from, -outward / normal.z) : 1e9;
+    std::vector<float> layers(table.layers());
+    table.read_above(k, LightTable::place_of(static_cast<float>(from)), static_cast<float>(outward), static_cast<float>(normal.z),
+                     layers.data());
+    for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += layers[n];
+  }
+  return sums;
+}
+
+constexpr auto direct = static_cast<std::size_t>(LightLayer::direct), diffuse = static_cast<std::size_t>(LightLayer::diffuse),
+               overcast = static_cast<std::size_t>(LightLayer::overcast), uniform = static_cast<std::size_t>(LightLayer::uniform);
+
+LightInterval hour(double azimuth_deg, double elevation_deg, double direct_normal_w_m2, double diffuse_w_m2, unsigned month = 6) {
+  LightInterval interval{{{Angle::degrees(azimuth_deg), Angle::degrees(elevation_deg), 1.0}}, 1.0};
+  interval.direct_normal_w_m2 = direct_normal_w_m2;
+  interval.diffuse_w_m2 = diffuse_w_m2;
+  interval.month = month;
+  return interval;
+}
+
+/// Skies from dull to clear.
+Light some_hours(SkyModel model) {
+  Light light{{hour(100, 12, 40, 90, 1), hour(150, 35, 420, 200, 2), hour(181, 52, 800, 110, 6), hour(250, 20, 0, 140, 6),
+               hour(290, 8, 350, 60, 11)}};
+  light.sky_model = model;
+  return light;
+}
+
+/// Azimuths of 1.1° meet the border of a tilted plane at their middles.
+constexpr double of_azimuths = 1e-4;
+
+TEST(LightTable, OfAnIsotropicSkyGivesTiltedPlanesTheirShare) {
+  const std::vector<double> at = turns();
+  const LightTable table(some_hours(SkyModel::isotropic), at);
+  EXPECT_NEAR(table.on_level()[diffuse], 0.6, 1e-6);
+  for (const double tilt : {0.0, 20.0, 45.0, 70.0, 90.0}) {
+    const std::vector<float> sums = on_plane(table, at, tilted(tilt, 33.0));
+    const double share = 0.5 * (1.0 + std::cos(tilt * pi / 180.0));
+    EXPECT_NEAR(sums[diffuse], 0.6 * share, of_azimuths) << tilt;
+    EXPECT_NEAR(sums[uniform], share, of_azimuths) << tilt;
+  }
+  EXPECT_NEAR(table.on_upright()[diffuse], 0.3, 1e-5);
+}
+
+TEST(LightTable, OfABasinIsotropicIsTheSquareOfItsCosine) {
+  const std::vector<double> at = turns(8);
+  const LightTable table(some_hours(SkyModel::isotropic), at);
+  for (const double horizon_deg : {5.0, 30.0, 45.0, 80.0, 89.0})
+    EXPECT_NEAR(on_plane(table, at, {0, 0, 1}, std::tan(horizon_deg * pi / 180.0))[uniform],
+                std::pow(std::cos(horizon_deg * pi / 180.0), 2), 2e-5)
+        << horizon_deg;
+}
+
+/// ∫ l max(0, n · ω) dω / ∫ l ω_z dω of one hour's sky, in steps of half a degree.
+double perez_share_by_quadrature(const LightInterval& interval, const Point3d& normal) {
+  const SunPosition sun = interval.sun.front();
+  const PerezSky sky(sky_state(Angle::degrees(90.0) - sun.elevation,
+                               {interval.diffuse_w_m2, interval.direct_normal_w_m2, interval.extraterrestrial_w_m2}));
+  const Point3d to_sun{cos(sun.elevation) * sin(sun.azimuth), cos(sun.elevation) * cos(sun.azimuth), sin(sun.elevation)};
+  double on_plane = 0.0, on_level = 0.0;
+  for (double e = 0.25; e < 90.0; e += 0.5)
+    for (double a = 0.25; a < 360.0; a += 0.5) {
+      const Angle elevation = Angle::degrees(e), azimuth = Angle::degrees(a);
+      const Point3d d{cos(elevation) * sin(azimuth), cos(elevation) * cos(azimuth), sin(elevation)};
+      const double light =
+          cos(elevation) * sky.radiance(Angle::degrees(90.0 - e), Angle::radians(std::acos(std::min(1.0, dot(d, to_sun)))));
+      on_plane += light * std::max(0.0, dot(d, normal));
+      on_level += light * d.z;
+    }
+  return on_plane / on_level;
+}
+
+TEST(LightTable, OfThePerezSkyIsItsQuadrature) {
+  const std::vector<double> at = turns();
+  for (const LightInterval& interval : some_hours(SkyModel::perez).intervals) {
+    Light light{{interval}};
+    const LightTable table(light, at);
+    EXPECT_NEAR(table.on_level()[diffuse], interval.diffuse_w_m2 / 1000.0, 1e-6);
+    for (const double tilt : {0.0, 30.0, 60.0, 90.0})
+      for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
+        const Point3d normal = tilted(tilt, azimuth);
+        const double expected = 0.001 * interval.diffuse_w_m2 * perez_share_by_quadrature(interval, normal);
+        // Bins of 2.5° flatten the sky around the sun
+        EXPECT_NEAR(on_plane(table, at, normal)[diffuse], expected, 0.005 * expected + 1e-5)
+            << interval.diffuse_w_m2 << " " << tilt << " " << azimuth;
+      }
+  }
+}
+
+TEST(LightTable, OfTheSunIsTheCosineOfEachPlane) {
+  const std::vector<double> at = turns();
+  const LightTable table(Light{{hour(170.3, 41.0, 800.0, 0.0)}}, at);
+  const Point3d sun{std::cos(41.0 * pi / 180) * std::sin(170.3 * pi / 180),
+                    std::cos(41.0 * pi / 180) * std::cos(170.3 * pi / 180), std::sin(41.0 * pi / 180)};
+  for (const double tilt : {0.0, 30.0, 60.0, 90.0})
+    for (const double azimuth : {90.0, 135.0, 180.0, 225.0}) {
+      const Point3d normal = tilted(tilt, azimuth);
+      // Between two azimuths a cosine is interpolated: (1.1° in radians)² / 8
+      EXPECT_NEAR(on_plane(table, at, normal)[direct], 0.8 * std::max(0.0, dot(sun, normal)), 0.8 * 5e-5 + 1e-6);
+    }
+  // Horizons below and above the disk, and in its middle: knots are .45° apart there
+  const auto above = [&](double deg) { return on_plane(table, at, {0, 0, 1}, std::tan(deg * pi / 180.0))[direct]; };
+  EXPECT_FLOAT_EQ(above(39.8), above(0.0));
+  EXPECT_EQ(above(42.2), 0.0F);
+  EXPECT_NEAR(above(41.0), 0.5 * above(0.0), 0.05 * above(0.0));
+}
+
+TEST(LightTable, TheEnergyOfAnHourIsKeptWhileTheSunRises) {
+  LightInterval interval = hour(90, 2, 300, 30);
+  interval.sun = {{Angle::degrees(88), Angle::degrees(-0.5), 0.5}, {Angle::degrees(90), Angle::degrees(2), 0.5}};
+  const LightTable table(Light{{interval}}, turns());
+  EXPECT_NEAR(table.on_level()[direct], 0.3 * std::sin(2.0 * pi / 180.0), 1e-7);
+  EXPECT_NEAR(table.on_level()[diffuse], 0.03, 1e-7);
+}
+
+TEST(LightTable, MonthsHaveTheLightOfTheirHours) {
+  Light light = some_hours(SkyModel::perez);
+  const LightTable all(light, turns());
+  light.by_month = true;
+  const LightTable table(light, turns());
+  ASSERT_EQ(std::vector<unsigned>(table.months().begin(), table.months().end()), (std::vector<unsigned>{1, 2, 6, 11}));
+  const std::array<double, 4> diffuse_of_month{0.09, 0.2, 0.25, 0.06};
+  for (std::size_t n = 0; n < diffuse_of_month.size(); ++n)
+    EXPECT_NEAR(table.on_level()[static_cast<std::size_t>(LightLayer::first_month) + 2 * n + 1], diffuse_of_month[n], 1e-6);
+  EXPECT_NEAR(table.on_level()[direct], all.on_level()[direct], 1e-6);
+  EXPECT_NEAR(table.on_upright()[diffuse], all.on_upright()[diffuse], 1e-6);
+  EXPECT_DOUBLE_EQ(table.hours(), 5.0);
+}
+
+TEST(LightTable, OfManyHoursIsTheSumOfEach) {
+  const std::vector<double> at = turns();
+  const Light light = some_hours(SkyModel::perez);
+  const Point3d normal = tilted(60.0, 110.0);
+  double direct_sum = 0.0, diffuse_sum = 0.0;
+  for (const LightInterval& interval : light.intervals) {
+    const std::vector<float> sums = on_plane(LightTable(Light{{interval}}, at), at, normal);
+    direct_sum += sums[direct];
+    diffuse_sum += sums[diffuse];
+  }
+  const std::vector<float> sums = on_plane(LightTable(light, at), at, normal);
+  EXPECT_NEAR(sums[direct], direct_sum, 1e-5);
+  EXPECT_NEAR(sums[diffuse], diffuse_sum, 1e-5);
+}
+
+TEST(LightTable, AWallInTheOpenHasTheVerticalSkyComponentOfTheCode) {
+  const std::vector<double> at = turns();
+  const LightTable table(Light{}, at);
+  EXPECT_NEAR(table.on_level()[overcast], 1.0, 1e-6);
+  // 3/14 + 4/7π: "just under 40 %" (BRE 209)
+  EXPECT_NEAR(on_plane(table, at, tilted(90, 10))[overcast], 3.0 / 14.0 + 4.0 / (7.0 * pi), of_azimuths);
+}
+
+TEST(SkyGrid, TheLightOfTheNightComesFromEverywhere) {
+  LightInterval dusk{{}, 1.0};
+  dusk.diffuse_w_m2 = 10.0;
+  SkyGrid sky;
+  sky.add(dusk, SkyModel::perez);
+  EXPECT_DOUBLE_EQ(sky.on_level(), 0.01);
+  EXPECT_DOUBLE_EQ(sky.radiance(0.3, Angle::degrees(70)), 0.01 / pi);
+}
+
+}  // namespace
+}  // namespace farlod
