@@ -54,6 +54,22 @@ struct Quantities {
   /// The hours of sunshine: those of the positions at which nothing hides the sun's centre, and it shines on the receiver's
   /// front. Column `sunlit_h`; of no positions, as in a polar night, it is 0.
   std::optional<std::vector<SunPosition>> sun = {};
+  /// The light of a period, for the next three.
+  std::optional<Light> light = {};
+  /// What falls on the receiver in the period, in kWh/m²: columns `irradiation`, `irradiation_direct` of the sun,
+  /// `irradiation_diffuse` of the sky, `irradiation_reflected`, and with Light::by_month `irradiation_01` … for each month that
+  /// there is. Crowns of trees let all light through. What is reflected is one bounce: the ground in the open sends the share
+  /// `ground_albedo` of what falls on it to all that a receiver sees of the lower half of its sphere, and all else that hides sky
+  /// the share `facade_albedo` of what falls on the mean upright plane in the open.
+  bool irradiation = false;
+  /// The mean of the same over the period, by day and by night, in W/m²: column `irradiance`.
+  bool irradiance = false;
+  /// The share of the hours with a sun above the horizon in which it does not shine on the receiver's front: column `shade`. NaN
+  /// where there are no such hours.
+  bool shade = false;
+  /// What comes from the CIE's overcast sky, as a share of what a level plane in the open gets: column `sky_component`. Of a
+  /// wall it is the vertical sky component.
+  bool sky_component = false;
   /// What crowns of trees do to the sky, by the rule of `canopy`; a package without trees has none. `svf`, horizons and all else
   /// stay those of buildings and ground.
   ///

@@ -27,12 +27,13 @@ from .layer_files import save_source
 from .staging import Staging
 
 QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "shadow_patches",
-              "svf_total", "svfaveg", "directional_vegetation", "shares"]
+              "irradiation", "irradiance", "shade", "sky_component", "svf_total", "svfaveg", "directional_vegetation", "shares"]
 QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
     "near and far geometry hide; horizon: its elevations; horizon_distance: and how far away it is; sky_patches: share seen of "
     "each patch of the sky; sunlit: hours of sunshine, which need a day or a year; shadow_patches: what hides each of the 153 of "
-    "UMEP, as bits; with the trees of a package svf_total (and "
+    "UMEP, as bits; irradiation, in kWh/m², irradiance, in W/m², and shade: those of a period; sky_component: light of an "
+    "overcast sky; with the trees of a package svf_total (and "
     "svfveg), svfaveg, directional_vegetation: both of the halves of the sky as UMEP has them; and the shares of sky, "
     "vegetation and building."
 )
@@ -67,6 +68,12 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         self.add(quantities, QUANTITIES_HELP)
         sun = QgsProcessingParameterString("SUN", "Day or year of the sunshine", None, False, True)
         self.add(sun, "2026-06-21, or 2026. Adds the hours of sunshine, were the sky clear.")
+        weather = QgsProcessingParameterFile("WEATHER", "Weather (EPW, TMY or CSV)", optional=True)
+        self.add(weather, "For irradiation, irradiance and shade. Without it, the sky is clear in the period.")
+        period = QgsProcessingParameterString("PERIOD", "Period", None, False, True)
+        self.add(period, "2026-06, 2026-06-21T10:00/16:00, or of any year, 06-21. Default: all of the weather.")
+        by_month = QgsProcessingParameterBoolean("BY_MONTH", "Irradiation of each month, too", False)
+        self.add(by_month, "A band or column for each.")
         self.add_optional_number("HORIZONS", "Azimuths of horizon", "Default: 36.", 4, 3600, whole=True, advanced=True)
         patches = "145: Tregenza's; 577: Reinhart's. For sky_patches."
         self.add_choice("SKY_PATCHES", "Patches of the sky", patches, ["145", "577"], advanced=True)
@@ -127,6 +134,10 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         quantities = [name for name in self.parameterAsEnumStrings(parameters, "QUANTITIES", context) if name]
         arguments = ["--quantity", ",".join(quantities)] if quantities else []
         arguments += self.text_argument(parameters, "SUN", "--sun", context)
+        arguments += self.text_argument(parameters, "WEATHER", "--weather", context)
+        arguments += self.text_argument(parameters, "PERIOD", "--period", context)
+        if self.parameterAsBoolean(parameters, "BY_MONTH", context):
+            arguments += ["--by", "month"]
         arguments += self.number_argument(parameters, "HORIZONS", "--horizons", context)
         if "sky_patches" in quantities:
             arguments += self.choice_argument(parameters, "SKY_PATCHES", "--sky-patches", context)

@@ -130,15 +130,6 @@ void find_sky(const SkyProfile& profile, const SkyProfile::Rows& known, const Re
   add_sky_in_gaps(profile, receivers, azimuths, 0.0F, straight_up, is_solid, rows);
 }
 
-/// The slopes at an azimuth at which the sun shines on a receiver's front: o + w t > 0.
-struct SlopesInFront {
-  float from = 0.0F, to = straight_up;
-};
-SlopesInFront slopes_in_front(float outward, float upward) {
-  if (outward > 0.0F) return {0.0F, upward < 0.0F ? std::min(straight_up, -outward / upward) : straight_up};
-  return upward > 0.0F ? SlopesInFront{-outward / upward, straight_up} : SlopesInFront{straight_up, straight_up};
-}
-
 }  // namespace
 
 std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least) {
@@ -162,7 +153,9 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
       if (const std::size_t n = azimuths_.order()[k]; n % step == 0) azimuth_of_horizon_[n / step] = k;
   }
   if (quantities.sky_patches != SkyPatchSet::none) divide_into_patches();
-  if (quantities.sun) sort_sun_positions();
+  if (quantities.sun) sun_ = sorted_by_azimuth(*quantities.sun);
+  if (quantities.shade) sort_sun_of_light();
+  if (needs_light()) light_.emplace(quantities.light.value_or(Light{}), turns_);
 }
 
 HorizonColumns FurtherQuantities::horizon_columns() const {
@@ -201,40 +194,10 @@ void FurtherQuantities::divide_into_patches() {
   }
 }
 
-std::size_t FurtherQuantities::nearest_azimuth(Angle azimuth) const {
-  const double turn = azimuth.radians() / (2.0 * std::numbers::pi);
-  const auto distance = [&](double other) {
-    const double between = turn - other;
-    return std::abs(between - std::round(between));
-  };
-  const auto nearest =
-      std::min_element(turns_.begin(), turns_.end(), [&](double a, double b) { return distance(a) < distance(b); });
-  return static_cast<std::size_t>(nearest - turns_.begin());
-}
-
-void FurtherQuantities::sort_sun_positions() {
-  using Position = std::pair<float, double>;  // slope, hours
-  std::vector<std::vector<Position>> at(azimuths_.size());
-  for (const SunPosition& sun : *quantities_.sun) {
-    if (sun.elevation.radians() <= 0.0) continue;
-    const double slope = std::min(tan(sun.elevation), static_cast<double>(straight_up));
-    at[nearest_azimuth(sun.azimuth)].emplace_back(static_cast<float>(slope), sun.hours);
-  }
-  for (std::vector<Position>& positions : at) {
-    std::sort(positions.begin(), positions.end());
-    SunAtAzimuth& sun = sun_.emplace_back();
-    for (const auto& [slope, hours] : positions) {
-      sun.slopes.push_back(slope);
-      sun.hours.push_back(hours);
-    }
-    for (std::size_t n = sun.hours.size(); n-- > 1;) sun.hours[n - 1] += sun.hours[n];
-    sun.hours.push_back(0.0);
-  }
-}
-
 void FurtherQuantities::evaluate(const ProfiledPacket& packet, std::span<float> values) const {
   FARLOD_EXPECTS(values.size() == packet.receivers.count * size_);
   QuantityColumns columns(size_, values);
+  if (light_) find_light(packet);
   for (const QuantityRow& row : quantity_table())
     if (row.add != nullptr && row.is_asked(quantities_)) (this->*row.add)(packet, columns);
   columns.skip(crowns_.count);
@@ -321,31 +284,6 @@ void FurtherQuantities::add_patches(const ProfiledPacket& packet, QuantityColumn
       columns.add(share);
     }
   }
-}
-
-void FurtherQuantities::add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, rows] = packet;
-  std::array<double, packet_lanes> hours{};
-  for (std::size_t k = 0; k < azimuths_.size(); ++k) {
-    const SunAtAzimuth& sun = sun_[k];
-    if (sun.slopes.empty()) continue;
-    const auto hours_above = [&](float slope) {
-      const auto first = std::upper_bound(sun.slopes.begin(), sun.slopes.end(), slope) - sun.slopes.begin();
-      return sun.hours[static_cast<std::size_t>(first)];
-    };
-    const auto hours_between = [&](float from, float to) { return from < to ? hours_above(from) - hours_above(to) : 0.0; };
-    for (std::size_t l = 0; l < receivers.count; ++l) {
-      const float outward = receivers.normal_x[l] * azimuths_.cosine()[k] + receivers.normal_y[l] * azimuths_.sine()[k];
-      const SlopesInFront front = slopes_in_front(outward, receivers.normal_z[l]);
-      hours[l] += hours_between(std::max(profile.sky_from[k][l], front.from), front.to);
-      if (profile.gap_share.empty()) continue;
-      hours[l] += static_cast<double>(profile.gap_share[k][l]) *
-                  hours_between(std::max(profile.gap_from[k][l], front.from), std::min(profile.gap_to[k][l], front.to));
-    }
-  }
-  Lanes column;
-  std::transform(hours.begin(), hours.end(), column.begin(), [](double h) { return static_cast<float>(h); });
-  columns.add(column);
 }
 
 }  // namespace farlod

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "horizon/sky_profile.hpp"
 #include "occlusion/occluder.hpp"
 #include "package/manifest.hpp"
+#include "radiation/light_table.hpp"
 
 namespace farlod {
 
@@ -57,6 +59,7 @@ struct ProfiledPacket {
   /// Working memory, kept from packet to packet.
   struct Rows {
     std::vector<PacketHorizon::Row> low, high, terms, open_terms;
+    std::vector<float> light;  ///< light[receiver][layer] of a LightTable
   };
   /// svf as it is answered, and with needs_near_sky() that of the near geometry alone.
   struct Sky {
@@ -109,11 +112,24 @@ class FurtherQuantities {
   void add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_shadow_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_irradiation(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_irradiance(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_shade(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_sky_component(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
  private:
   void divide_into_patches();
-  void sort_sun_positions();
-  [[nodiscard]] std::size_t nearest_azimuth(Angle azimuth) const;
+  void sort_sun_of_light();
+  [[nodiscard]] bool needs_light() const {
+    return quantities_.irradiation || quantities_.irradiance || quantities_.sky_component;
+  }
+  /// What the receivers get of each layer of the light, as their profiles and their sky view factors say.
+  void find_light(const ProfiledPacket& packet) const;
+  /// What each receiver gets from the sun, from the sky, and once reflected. `direct` is the first of both layers.
+  struct LightParts {
+    PacketHorizon::Lanes direct, diffuse, reflected;
+  };
+  [[nodiscard]] LightParts light_parts(const ProfiledPacket& packet, std::size_t direct) const;
 
   /// A patch that a part of the turn around an azimuth lies in, and the share of it that does.
   struct PatchShare {
@@ -131,6 +147,10 @@ class FurtherQuantities {
     std::vector<float> slopes;
     std::vector<double> hours;
   };
+  [[nodiscard]] std::size_t nearest_azimuth(Angle azimuth) const;
+  [[nodiscard]] std::vector<SunAtAzimuth> sorted_by_azimuth(std::span<const SunPosition> sun) const;
+  [[nodiscard]] std::array<double, ReceiverPacket::lanes> hours_of(const std::vector<SunAtAzimuth>& sun,
+                                                                   const ProfiledPacket& packet) const;
 
   Quantities quantities_;
   std::size_t size_;
@@ -140,7 +160,9 @@ class FurtherQuantities {
   std::vector<std::size_t> azimuth_of_horizon_;
   SkyHalves halves_;
   std::vector<Band> bands_;
-  std::vector<SunAtAzimuth> sun_;
+  std::vector<SunAtAzimuth> sun_, sun_of_light_;
+  double hours_of_light_ = 0.0;  ///< with a sun above the horizon
+  std::optional<LightTable> light_;
 };
 
 }  // namespace farlod

@@ -12,6 +12,7 @@
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "farlod/shadow_patches.hpp"
+#include "radiation/light_table.hpp"
 
 namespace farlod {
 namespace {
@@ -95,6 +96,32 @@ void describe_shadow_patches(const Quantities&, Columns& columns) {
       columns.push_back({name + std::to_string(n + 1), "1",
                          "a whole number whose bits, from the least on, are 1 where " + std::string(meaning) + " patch " +
                              std::to_string(n * patches_of_shadow_column) + " and the following ones of the 153 of UMEP"});
+}
+
+void describe_irradiation(const Quantities& q, Columns& columns) {
+  const std::string unit = "kW h m-2";
+  columns.push_back({"irradiation", unit, "what falls on the receiver in the period: the sum of the next three"});
+  columns.push_back({"irradiation_direct", unit, "what comes from the sun"});
+  columns.push_back({"irradiation_diffuse", unit, "what comes from the sky"});
+  columns.push_back({"irradiation_reflected", unit, "what the ground and facades reflect, once"});
+  if (!q.light) return;
+  for (const unsigned month : months_by_name(*q.light)) {
+    const std::string number = (month < 10 ? "0" : "") + std::to_string(month);
+    columns.push_back({"irradiation_" + number, unit, "irradiation in month " + number});
+  }
+}
+
+void describe_irradiance(const Quantities&, Columns& columns) {
+  columns.push_back({"irradiance", "W m-2", "mean of what falls on the receiver in the period, by day and by night"});
+}
+
+void describe_shade(const Quantities&, Columns& columns) {
+  columns.push_back({"shade", "1", "share of the period's hours of sun in which none shines on the receiver"});
+}
+
+void describe_sky_component(const Quantities&, Columns& columns) {
+  columns.push_back(
+      {"sky_component", "1", "light of the overcast sky of the CIE, as a share of that on a level plane in the open"});
 }
 
 void describe_total(const Quantities& q, Columns& columns) {
@@ -218,6 +245,30 @@ constexpr auto table = std::to_array<QuantityRow>({
      .ask = set_flag<&Quantities::shadow_patches>,
      .describe = describe_shadow_patches,
      .add = &FurtherQuantities::add_shadow_patches},
+    {.quantity = Quantity::irradiation,
+     .word = {.word = "irradiation", .meaning = "kWh/m² in a period"},
+     .is_asked = is_flagged<&Quantities::irradiation>,
+     .ask = set_flag<&Quantities::irradiation>,
+     .describe = describe_irradiation,
+     .add = &FurtherQuantities::add_irradiation},
+    {.quantity = Quantity::irradiance,
+     .word = {.word = "irradiance", .meaning = "its mean, W/m²"},
+     .is_asked = is_flagged<&Quantities::irradiance>,
+     .ask = set_flag<&Quantities::irradiance>,
+     .describe = describe_irradiance,
+     .add = &FurtherQuantities::add_irradiance},
+    {.quantity = Quantity::shade,
+     .word = {.word = "shade", .meaning = "share of the hours of sun", .is_weighted = false},
+     .is_asked = is_flagged<&Quantities::shade>,
+     .ask = set_flag<&Quantities::shade>,
+     .describe = describe_shade,
+     .add = &FurtherQuantities::add_shade},
+    {.quantity = Quantity::sky_component,
+     .word = {.word = "sky_component", .meaning = "light of an overcast sky"},
+     .is_asked = is_flagged<&Quantities::sky_component>,
+     .ask = set_flag<&Quantities::sky_component>,
+     .describe = describe_sky_component,
+     .add = &FurtherQuantities::add_sky_component},
     {.quantity = Quantity::svf_total,
      .word = {.word = "svf_total", .meaning = "and svfveg", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::svf_total>,

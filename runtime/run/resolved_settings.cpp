@@ -28,16 +28,40 @@ void check(const CanopySettings& canopy) {
   require_between("further.canopy.extinction_per_m", canopy.extinction_per_m, 0.001, 100.0);
 }
 
+void check(const SunPosition& sun) {
+  require_between("an azimuth of the sun, in degrees", sun.azimuth.degrees(), -360.0, 360.0);
+  require_between("an elevation of the sun, in degrees", sun.elevation.degrees(), -90.0, 90.0);
+  require_between("the hours of a position of the sun", sun.hours, 0.0, 8784.0);
+}
+
+void check(const Light& light) {
+  require_one_of("further.light.sky_model", light.sky_model, SkyModel::isotropic);
+  require_between("further.light.ground_albedo", light.ground_albedo, 0.0, 1.0);
+  require_between("further.light.facade_albedo", light.facade_albedo, 0.0, 1.0);
+  for (const LightInterval& interval : light.intervals) {
+    require_between("the hours of an interval of light", interval.hours, 0.0, 8784.0);
+    require_between("a direct irradiance, in W/m²", interval.direct_normal_w_m2, 0.0, 2000.0);
+    require_between("a diffuse irradiance, in W/m²", interval.diffuse_w_m2, 0.0, 2000.0);
+    require_between("an extraterrestrial irradiance, in W/m²", interval.extraterrestrial_w_m2, 100.0, 2000.0);
+    require_count_between("a month of an interval of light", interval.month, 1, 12);
+    for (const SunPosition& sun : interval.sun) check(sun);
+  }
+}
+
+void check_light_of(const Quantities& q) {
+  if (q.light) return check(*q.light);
+  for (const QuantityWord& asked : words_of(q))
+    if (asked.word == "irradiation" || asked.word == "irradiance" || asked.word == "shade")
+      throw InvalidArgument(std::string(asked.word) + " is that of a period: give its light (further.light)");
+}
+
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
   if (q.horizon_distances && q.horizons == 0)
     throw InvalidArgument("further.horizon_distances are those of horizons, and further.horizons is 0: give their number");
-  for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) {
-    require_between("an azimuth of the sun, in degrees", sun.azimuth.degrees(), -360.0, 360.0);
-    require_between("an elevation of the sun, in degrees", sun.elevation.degrees(), -90.0, 90.0);
-    require_between("the hours of a position of the sun", sun.hours, 0.0, 8784.0);
-  }
+  for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) check(sun);
+  check_light_of(q);
   check(q.canopy);
   if (weight == SkyWeight::cosine) return;
   for (const QuantityWord& asked : words_of(q))

@@ -31,8 +31,8 @@ struct Change {
   [[maybe_unused]] auto& [above, height_m] = placing;
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
       evaluation;
-  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, svf_total, svf_total_bounds,
-                          svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
+  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, light, irradiation, irradiance, shade,
+                          sky_component, svf_total, svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
 }
@@ -133,6 +133,10 @@ TEST_F(ResultKey, HasEachQuantity) {
                          {"directional_vegetation", further(&Quantities::directional_vegetation)},
                          {"shadow_patches", further(&Quantities::shadow_patches)},
                          {"shares", further(&Quantities::sky_shares)},
+                         {"irradiation", further(&Quantities::irradiation)},
+                         {"irradiance", further(&Quantities::irradiance)},
+                         {"shade", further(&Quantities::shade)},
+                         {"sky_component", further(&Quantities::sky_component)},
                          {"sun of a day", sun(2026y / 6 / 21, 1, 5min)},
                          {"sun of another day", sun(2026y / 1 / 1, 1, 5min)},
                          {"sun of a year", sun(2026y / 1 / 1, 365, 5min)},

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "radiation/perez_sky.hpp"
+#include "tests/analytic/oracles.hpp"
+#include "tests/analytic/packed_around.hpp"
+
+// What falls on receivers in a period, against closed forms and quadratures, by horizons and by rays.
+
+namespace farlod {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::array engines_of_light{Engine::automatic, Engine::horizon, Engine::rays, Engine::exact};
+
+/// Of azimuths, of rays, and of knots of the table.
+constexpr double tolerance_of_light = 0.003;
+
+LightInterval hour_of(double azimuth_deg, double elevation_deg, double direct_normal_w_m2, double diffuse_w_m2) {
+  LightInterval interval{{{Angle::degrees(azimuth_deg), Angle::degrees(elevation_deg), 1.0}}, 1.0};
+  interval.direct_normal_w_m2 = direct_normal_w_m2;
+  interval.diffuse_w_m2 = diffuse_w_m2;
+  return interval;
+}
+
+Quantities irradiation_of(const LightInterval& interval, SkyModel model = SkyModel::isotropic) {
+  Quantities quantities{.light = Light{{interval}, model, 0.0, 0.0}, .irradiation = true};
+  return quantities;
+}
+
+Point3d tilted_normal(double tilt_deg, double azimuth_deg) {
+  const Angle tilt = Angle::degrees(tilt_deg), azimuth = Angle::degrees(azimuth_deg);
+  return {sin(tilt) * sin(azimuth), sin(tilt) * cos(azimuth), cos(tilt)};
+}
+
+/// Walls along the north.
+struct Street {
+  double height_m = 20.0, east_m = 6.0, west_m = 9.0;
+
+  auto walls() const {
+    return [s = *this](scenes::SceneBuilder& builder) {
+      for (const double x : {s.east_m, -s.west_m}) builder.add_wall({x, -900.0}, {x, 900.0}, -packed_eye_m, s.height_m);
+    };
+  }
+  [[nodiscard]] double svf() const {
+    return 0.5 * (std::cos(std::atan2(height_m, east_m)) + std::cos(std::atan2(height_m, west_m)));
+  }
+};
+
+TEST(Irradiation, OfTiltedPlanesInTheOpenIsTheirShareOfAnIsotropicSky) {
+  const PackedAround open(Angle::degrees(20.0), [](scenes::SceneBuilder&) {});
+  const Quantities quantities = irradiation_of(hour_of(180, 40, 0, 1000));
+  for (const Engine engine : engines_of_light)
+    for (const double tilt : {0.0, 25.0, 60.0, 90.0, 120.0}) {
+      const auto got = open.columns(engine, quantities, tilted_normal(tilt, 77.0));
+      EXPECT_NEAR(got.at("irradiation_diffuse"), 0.5 * (1.0 + std::cos(tilt * pi / 180.0)), tolerance_of_light) << tilt;
+      EXPECT_EQ(got.at("irradiation_direct"), 0.0);
+      EXPECT_EQ(got.at("irradiation"), got.at("irradiation_diffuse"));
+    }
+}
+
+TEST(Irradiation, OfAStreetUnderAnIsotropicSkyIsItsSkyViewFactor) {
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  for (const Engine engine : engines_of_light) {
+    const auto got = packed.columns(engine, irradiation_of(hour_of(180, 40, 0, 1000)));
+    EXPECT_NEAR(got.at("irradiation_diffuse"), street.svf(), tolerance_of_light);
+    EXPECT_NEAR(got.at("irradiation_diffuse"), got.at("svf"), 1e-6);
+  }
+}
+
+/// ∫ l ω_z dω of what a street shows of a sky, as a share of all of it.
+double seen_of_perez(const Street& street, const LightInterval& interval) {
+  const SunPosition& sun = interval.sun.front();
+  const PerezSky sky(sky_state(Angle::degrees(90.0) - sun.elevation,
+                               {interval.diffuse_w_m2, interval.direct_normal_w_m2, interval.extraterrestrial_w_m2}));
+  const Point3d to_sun{cos(sun.elevation) * sin(sun.azimuth), cos(sun.elevation) * cos(sun.azimuth), sin(sun.elevation)};
+  double seen = 0.0, all = 0.0;
+  for (double e = 0.25; e < 90.0; e += 0.5)
+    for (double a = 0.25; a < 360.0; a += 0.5) {
+      const Angle elevation = Angle::degrees(e), azimuth = Angle::degrees(a);
+      const Point3d d{cos(elevation) * sin(azimuth), cos(elevation) * cos(azimuth), sin(elevation)};
+      const double light =
+          cos(elevation) * d.z * sky.radiance(Angle::degrees(90.0 - e), Angle::radians(std::acos(std::min(1.0, dot(d, to_sun)))));
+      all += light;
+      const double wall_m = d.x > 0.0 ? street.east_m : street.west_m;
+      if (d.z * wall_m > street.height_m * std::abs(d.x)) seen += light;
+    }
+  return seen / all;
+}
+
+TEST(Irradiation, OfAStreetUnderThePerezSkyIsItsQuadrature) {
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  // The sun above the street, and behind a wall
+  for (const LightInterval& interval : {hour_of(181, 52, 800, 1000), hour_of(95, 25, 300, 1000)})
+    for (const Engine engine : engines_of_light)
+      EXPECT_NEAR(packed.columns(engine, irradiation_of(interval, SkyModel::perez)).at("irradiation_diffuse"),
+                  seen_of_perez(street, interval), 2.0 * tolerance_of_light);
+}
+
+TEST(Irradiation, OfTheSunIsTheCosineUnlessAWallStandsBefore) {
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  const double cut_off_deg = std::atan2(street.height_m, street.east_m) * 180.0 / pi;
+  for (const Engine engine : engines_of_light) {
+    // A wall that looks at the wall in the east
+    for (const double above_deg : {-1.5, -0.7, 0.7, 1.5}) {
+      const double elevation_deg = cut_off_deg + above_deg;
+      const auto got = packed.columns(engine, irradiation_of(hour_of(90, elevation_deg, 1000, 0)), {1.0, 0.0, 0.0});
+      EXPECT_NEAR(got.at("irradiation_direct"), above_deg > 0.0 ? std::cos(elevation_deg * pi / 180.0) : 0.0, 1e-3) << above_deg;
+    }
+    // The sun of an equinox's noon, along the street
+    const auto noon = packed.columns(engine, irradiation_of(hour_of(180, 40, 1000, 0)));
+    EXPECT_NEAR(noon.at("irradiation_direct"), std::sin(40.0 * pi / 180.0), 1e-3);
+  }
+}
+
+TEST(Irradiation, BelowARoofComesThroughTheGap) {
+  // A roof without walls, 13 m wide on each side and 1.5 m above the eye: open below 6.6° in the south
+  const PackedAround packed({}, [](scenes::SceneBuilder& builder) { builder.add_box({{-13.0, -13.0}, {13.0, 13.0}}, 1.5, 2.0); });
+  for (const Engine engine : {Engine::automatic, Engine::exact}) {
+    EXPECT_NEAR(packed.columns(engine, irradiation_of(hour_of(180, 3, 1000, 0))).at("irradiation_direct"),
+                std::sin(3.0 * pi / 180.0), 0.1 * std::sin(3.0 * pi / 180.0));
+    EXPECT_EQ(packed.columns(engine, irradiation_of(hour_of(180, 20, 1000, 0))).at("irradiation_direct"), 0.0);
+  }
+}
+
+TEST(Irradiation, IsReflectedOnceByWhatIsNotSky) {
+  Quantities quantities = irradiation_of(hour_of(180, 30, 800, 100));
+  quantities.light->ground_albedo = 0.3;
+  quantities.light->facade_albedo = 0.5;
+  const double level = 0.8 * 0.5 + 0.1, upright = 0.8 * std::cos(pi / 6.0) / pi + 0.05;
+  const PackedAround open({}, [](scenes::SceneBuilder&) {});
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  for (const Engine engine : engines_of_light) {
+    const auto wall = open.columns(engine, quantities, {0.0, 1.0, 0.0});
+    EXPECT_NEAR(wall.at("irradiation_reflected"), 0.5 * 0.3 * level, 1e-3);
+    const auto ground = packed.columns(engine, quantities);
+    EXPECT_NEAR(ground.at("irradiation_reflected"), (1.0 - street.svf()) * 0.5 * upright, 1e-3);
+    EXPECT_NEAR(ground.at("irradiation"),
+                ground.at("irradiation_direct") + ground.at("irradiation_diffuse") + ground.at("irradiation_reflected"), 1e-6);
+  }
+}
+
+TEST(Irradiation, OfMonthsAddsUpToThatOfThePeriod) {
+  Quantities quantities = irradiation_of(hour_of(180, 60, 500, 200), SkyModel::perez);
+  LightInterval other = hour_of(95, 25, 300, 100);
+  other.month = 11;
+  quantities.light->intervals.push_back(other);
+  quantities.light->by_month = true;
+  quantities.light->ground_albedo = 0.2;
+  quantities.light->facade_albedo = 0.2;
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  for (const Engine engine : engines_of_light) {
+    const auto got = packed.columns(engine, quantities);
+    EXPECT_NEAR(got.at("irradiation_01") + got.at("irradiation_11"), got.at("irradiation"), 1e-5);
+    EXPECT_GT(got.at("irradiation_11"), 0.0);
+  }
+}
+
+TEST(Irradiance, IsTheMeanOfIrradiation) {
+  Quantities quantities = irradiation_of(hour_of(180, 60, 500, 200));
+  LightInterval night{{}, 3.0};
+  quantities.light->intervals.push_back(night);
+  quantities.irradiance = true;
+  const PackedAround open({}, [](scenes::SceneBuilder&) {});
+  const auto got = open.columns(Engine::automatic, quantities);
+  EXPECT_NEAR(got.at("irradiance"), 1000.0 * got.at("irradiation") / 4.0, 1e-3);
+}
+
+TEST(Shade, IsTheShareOfTheHoursOfSun) {
+  Quantities quantities = irradiation_of(hour_of(90, 40, 0, 0));  // behind the wall
+  quantities.irradiation = false;
+  quantities.shade = true;
+  LightInterval noon = hour_of(180, 40, 0, 0);
+  noon.sun.front().hours = 3.0;
+  quantities.light->intervals.push_back(noon);
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  for (const Engine engine : engines_of_light) EXPECT_NEAR(packed.columns(engine, quantities).at("shade"), 0.25, 1e-6);
+  quantities.light->intervals.clear();
+  EXPECT_TRUE(std::isnan(packed.columns(Engine::automatic, quantities).at("shade")));
+}
+
+TEST(SkyComponent, OfAWallInTheOpenIsThatOfTheCode) {
+  const PackedAround open({}, [](scenes::SceneBuilder&) {});
+  const Quantities quantities{.sky_component = true};
+  for (const Engine engine : engines_of_light) {
+    EXPECT_NEAR(open.columns(engine, quantities).at("sky_component"), 1.0, 1e-5);
+    EXPECT_NEAR(open.columns(engine, quantities, {1.0, 0.0, 0.0}).at("sky_component"), 3.0 / 14.0 + 4.0 / (7.0 * pi),
+                tolerance_of_light);
+  }
+}
+
+}  // namespace
+}  // namespace farlod
