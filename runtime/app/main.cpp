@@ -17,11 +17,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/light_of_package.hpp"
 #include "app/quantity_options.hpp"
 #include "app/region_of_package.hpp"
 #include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
-#include "app/sun_of_package.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
 #include "app/written_run.hpp"
@@ -244,7 +244,7 @@ WrittenRun evaluate(SvfOptions options) {
   const Package package(options.package);
   const double open_s = seconds_since(start);
   options.evaluation.region = region_of_package(options, package.description());
-  if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
+  const std::vector<std::string> remarks = place_light(package, options);
   if (options.format != nullptr)
     add_for_solweig(*options.format, inventory_of(package).crowns.all() > 0, options.evaluation.further);
   ProgressLine progress("sky view factors", options.run.verbosity);
@@ -254,6 +254,7 @@ WrittenRun evaluate(SvfOptions options) {
   WrittenRun written = write(package, options, run);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
+  written.notes.insert(written.notes.begin(), remarks.begin(), remarks.end());
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   if (options.evaluation.dry_run) return written;
   if (options.shard) {

@@ -60,6 +60,18 @@ void add_sun(const SunPeriod& sun, AnswerKey& key) {
   key.emplace_back("--sun-step", fmt::format("{}", sun.step.count()));
 }
 
+void add_light(const LightRequest& request, const Light& light, AnswerKey& key) {
+  if (request.weather_file.empty())
+    key.emplace_back("--linke", fmt::format("{}", request.linke_turbidity));
+  else
+    key.emplace_back("--weather", name_of_file(request.weather_file));
+  if (request.period) key.emplace_back("--period", request.period->text);
+  key.emplace_back("--step", fmt::format("{}", request.step.count()));
+  key.emplace_back("--sky-model", word_for(sky_model_words, light.sky_model));
+  key.emplace_back("--albedo", fmt::format("{},{}", light.ground_albedo, light.facade_albedo));
+  if (light.by_month) key.emplace_back("--by", "month");
+}
+
 void add_canopy(const CanopySettings& canopy, AnswerKey& key) {
   key.emplace_back("--canopy-rule", word_for(canopy_rule_words, canopy.rule));
   if (canopy.rule == CanopyRule::beer)
@@ -95,6 +107,7 @@ AnswerKey key_of(const SvfOptions& o) {
   add_accuracy(o.evaluation, key);
   add_quantities(o.evaluation.further, key);
   if (o.sunshine) add_sun(*o.sunshine, key);
+  if (o.light) add_light(*o.light, o.evaluation.further.light.value_or(Light{}), key);
   if (o.evaluation.further.any_of_canopies()) add_canopy(o.evaluation.further.canopy, key);
   // The frame of a raster tells its box
   if (o.bbox_projected && o.source != ReceiverSource::grid) key.emplace_back("--bbox", text_of(*o.bbox_projected));
@@ -109,7 +122,8 @@ AnswerKey key_of_answers(const SvfOptions& o, const PackageDescription& package)
   if (o.bbox_projected) key.emplace_back("the box", text_of(*o.bbox_projected));
   if (!o.points_crs.empty()) key.emplace_back("--points-crs", o.points_crs);
   if (!o.points_layer.empty()) key.emplace_back("--points-layer", o.points_layer);
-  for (const std::filesystem::path& file : {o.points_file, o.mask_file, o.grid_like})
+  const std::filesystem::path weather = o.light ? o.light->weather_file : std::filesystem::path();
+  for (const std::filesystem::path& file : {o.points_file, o.mask_file, o.grid_like, weather})
     if (!file.empty()) key.emplace_back("the checksum of " + name_of_file(file), xxh3_of_file(file));
   return key;
 }

@@ -16,18 +16,19 @@
 #endif
 
 namespace farlod {
-namespace {
 
-PlaceOnEarth middle_of(const PackageDescription& package) {
+PlaceOnEarth place_of_package(const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
   const Point2d middle = 0.5 * (package.outline_projected.low + package.outline_projected.high);
   const Point2d degrees = gdal_files().reprojected({&middle, 1}, package.crs_wkt, "EPSG:4326").front();
   return {Angle::degrees(degrees.x), Angle::degrees(degrees.y)};
 #else
-  throw InputError("--sun needs GDAL, which this farlod-svf was built without, to find out where on the Earth " +
+  throw InputError("The sun needs GDAL, which this farlod-svf was built without, to find out where on the Earth " +
                    package.crs_name + " lies: build it with FARLOD_WITH_GDAL.");
 #endif
 }
+
+namespace {
 
 std::string name_of(std::chrono::year_month_day day) {
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
@@ -50,11 +51,11 @@ std::vector<std::chrono::year_month_day> days_to_draw(const SunPeriod& period) {
 }  // namespace
 
 std::vector<SunPosition> sun_of_package(const PackageDescription& package, const SunPeriod& period) {
-  return sun_positions(middle_of(package), period.first, period.days, period.step);
+  return sun_positions(place_of_package(package), period.first, period.days, period.step);
 }
 
 SunOfSky sun_courses_of_package(const PackageDescription& package, const SunPeriod& period) {
-  const PlaceOnEarth middle = middle_of(package);
+  const PlaceOnEarth middle = place_of_package(package);
   SunOfSky sun{{}, {"Local mean time", "(" + clock_of(middle.longitude) + ")"}};
   for (const std::chrono::year_month_day day : days_to_draw(period)) {
     SunCourse course{name_of(day), {}};

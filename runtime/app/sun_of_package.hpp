@@ -7,8 +7,12 @@
 #include "app/quantity_options.hpp"
 #include "farlod/package.hpp"
 #include "results/picture/sky_picture.hpp"
+#include "sun/sun_positions.hpp"
 
 namespace farlod {
+
+/// The middle of a package. Throws InputError where it is not known, as without GDAL.
+[[nodiscard]] PlaceOnEarth place_of_package(const PackageDescription& package);
 
 /// The positions of the sun in the middle of a package. All of a city has the same: 100 km from there they differ by a degree.
 /// Throws InputError where the package's place is not known, as without GDAL.

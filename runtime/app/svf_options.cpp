@@ -56,6 +56,7 @@ struct RawOptions {
                                                                                          directions = "partition";
   bool on_surface = false;
   RawQuantities quantities;
+  RawLight light;
   RawPictures pictures;
 };
 
@@ -307,6 +308,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
                                                  " has room for one quantity only: " + advice(has_room));
   requested.further.svf_total_bounds = requested.further.svf_total && o.evaluation.bounds;
+  o.light = resolved_light(raw.light, requested.further);
   o.evaluation.further = std::move(requested.further);
   o.sunshine = requested.sunshine;
 }
@@ -338,6 +340,7 @@ struct CommandLine {
     add_output_options(app, raw);
     add_picture_options(app, raw.pictures, options);
     add_quantity_options(app, raw.quantities);
+    add_light_options(app, raw.light);
     add_sky_options(app, raw, options);
     add_error_options(app, options);
     add_limit_options(app, options);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/light_options.hpp"
 #include "app/quantity_options.hpp"
 #include "console/run_options.hpp"
 #include "farlod/box.hpp"
@@ -41,8 +42,9 @@ struct SvfOptions {
   Placing placing;
   std::optional<Box2d> bbox_projected;
   std::filesystem::path mask_file;    ///< of polygons; empty: no mask
-  EvaluationSettings evaluation;      ///< but for the sun, whose positions depend on where the package is
+  EvaluationSettings evaluation;      ///< but for the sun and its light, which depend on where the package is
   std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
+  std::optional<LightRequest> light;  ///< where the light of a period comes from, if any is asked for
   std::string preview_file, verify_file, histogram_file;
   SkyProjection projection = SkyProjection::equal_area;
   std::optional<std::uint64_t> memory_limit_mib;

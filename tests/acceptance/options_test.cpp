@@ -74,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
              "--rays",         "--directions",     "--azimuths",   "--sky",      "--max-error",  "--bounds",    "--verify",
              "--memory-limit", "--quiet",          "--threads",    "--config",   "--along",      "--mask",      "--quantity",
              "--horizons",     "--sky-patches",    "--sun",        "--sun-step", "--city",       "--grid-like", "--dry-run",
-             "--verify-map",   "--histogram",      "--resume",     "--shard",    "--merge"}},
+             "--verify-map",   "--histogram",      "--resume",     "--shard",    "--merge",      "--weather",   "--period",
+             "--step",         "--linke",          "--sky-model",  "--albedo",   "--by"}},
         Program{"farlod-view",
                 {"--help", "--version", "--port", "--listen", "--export", "--summary", "--quiet", "--threads", "--config"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"

@@ -20,6 +20,7 @@ using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsSupersetOf;
 using testing::Not;
 
 const Point2d middle_crossing = p_projected({-60.0, 0.0});
@@ -82,6 +83,54 @@ TEST_F(PackedTown, ThePictureOfTheSkyHasThePathsOfTheSun) {
   EXPECT_THAT(folder.colours_of("sky.svg"), AllOf(Contains(june), Contains(march), Contains(december)));
 }
 
+/// The hours of a day, with a sun of 500 W/m² and a sky of 200 W/m² around noon.
+constexpr const char* day_of_weather =
+    "time,global,direct,diffuse\n2026-03-20T10:00Z,500,500,200\n2026-03-20T11:00Z,530,500,200\n2026-03-20T12:00Z,520,500,200\n";
+
+TEST_F(PackedTown, IrradiationOfAWeatherFileIsThatOfItsHours) {
+  folder.write("day.csv", day_of_weather);
+  const Point2d open = town_middle + Point2d{20000.0, 0.0};
+  folder.must(
+      "farlod-svf a.farlod -o o.csv --weather day.csv --quantity irradiation,irradiance,shade,sky_component --by month "
+      "--summary s.json --at " +
+      text_of(open));
+  const CsvTable row = table("o.csv");
+  EXPECT_THAT(row.header(), IsSupersetOf({"irradiation", "irradiation_direct", "irradiation_diffuse", "irradiation_reflected",
+                                          "irradiation_03", "irradiance", "shade", "sky_component"}));
+  EXPECT_NEAR(row.number(0, "irradiation_diffuse"), 0.6, 1e-3);
+  // At 50° north the sun of the equinox stands 36 to 40° high around noon
+  EXPECT_NEAR(row.number(0, "irradiation_direct"), 1.5 * 0.62, 0.03);
+  EXPECT_NEAR(row.number(0, "irradiation_03"), row.number(0, "irradiation"), half_of_last_digit);
+  EXPECT_NEAR(row.number(0, "irradiance"), 1000.0 * row.number(0, "irradiation") / 3.0, 0.2);
+  EXPECT_EQ(row.number(0, "shade"), 0.0);
+  EXPECT_NEAR(row.number(0, "sky_component"), 1.0, half_of_last_digit);
+  folder.must(
+      "farlod-svf a.farlod -o p.csv --weather day.csv --period 2026-03-20T11:00Z/12:00Z --quantity irradiation --sky-model "
+      "isotropic --albedo 0,0 --at " +
+      text_of(open));
+  EXPECT_NEAR(table("p.csv").number(0, "irradiation_diffuse"), 0.2, 1e-3);
+}
+
+TEST_F(PackedTown, IrradiationIsTheSameForEachNumberOfThreads) {
+  folder.write("day.csv", day_of_weather);
+  const std::string run = "farlod-svf a.farlod --surfaces all --spacing 6 --quantity irradiation --weather day.csv --by month";
+  folder.must(run + " -o one.csv --threads 1");
+  folder.must(run + " -o four.csv --threads 4");
+  EXPECT_EQ(folder.text_of("one.csv"), folder.text_of("four.csv"));
+}
+
+TEST_F(PackedTown, IrradiationOfAClearSkyNeedsNoFile) {
+  folder.must("farlod-svf a.farlod -o o.tif --grid 8 --period 2026-06-21 --quantity irradiation --linke 4");
+  EXPECT_THAT(band_names(folder.path("o.tif")),
+              ElementsAre("svf", "irradiation", "irradiation_direct", "irradiation_diffuse", "irradiation_reflected"));
+  const RasterFile all = read_raster(folder.path("o.tif"), 2);
+  double most = 0.0;
+  for (const auto& value : all.values) most = std::max(most, value.value_or(0.0));
+  // The longest day at 50° north, some 8 kWh/m²
+  EXPECT_GT(most, 7.0);
+  EXPECT_LT(most, 9.5);
+}
+
 TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
     expect_refusal(folder.run("farlod-svf a.farlod " + arguments), exit_usage, said);
@@ -95,6 +144,14 @@ TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
   refused("-o o.csv --at 1,2 --sun-step 5", {"--sun-step", "--sun"});
   refused("-o o.csv --at 1,2 --horizons 2", {"--horizons"});
   refused("-o o.csv --at 1,2 --sky-patches 100", {"--sky-patches"});
+  refused("-o o.csv --at 1,2 --quantity irradiation", {"--quantity", "--weather", "--period"});
+  refused("-o o.csv --at 1,2 --weather a.epw", {"--weather", "irradiation"});
+  refused("-o o.csv --at 1,2 --quantity irradiation --weather a.epw --linke 3", {"--linke", "--weather"});
+  refused("-o o.csv --at 1,2 --quantity shade --weather a.epw --by month", {"--by", "irradiation"});
+  refused("-o o.csv --at 1,2 --quantity irradiation --period someday", {"--period", "someday"});
+  refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --albedo 0.2", {"--albedo", "0.2,0.3"});
+  refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --albedo 0.2,1.5", {"--albedo", "0.2,1.5"});
+  refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --sky-model blue", {"--sky-model", "isotropic"});
   refused("-o o.csv --at 1,2 --sky solid --quantity directional", {"--quantity", "--sky solid"});
 }
 

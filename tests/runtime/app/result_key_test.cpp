@@ -26,15 +26,20 @@ struct Change {
 [[maybe_unused]] void all_members_are_known(SvfOptions& o) {
   [[maybe_unused]] auto& [package, output, format, preview_format, verify_format, source, grid_step_m, grid_like, own_pixels,
                           points_file, points_crs, points_layer, surfaces, city_file, at, placing, bbox, mask, evaluation,
-                          sunshine, preview, verify_file, histogram, projection, memory_limit, resume, merge, shard, run] = o;
+                          sunshine, light_request, preview, verify_file, histogram, projection, memory_limit, resume, merge,
+                          shard, run] = o;
   [[maybe_unused]] auto& [choice, spacing_m] = surfaces;
   [[maybe_unused]] auto& [above, height_m] = placing;
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
       evaluation;
-  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, light, irradiation, irradiance, shade,
-                          sky_component, svf_total, svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
+  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, light, irradiation, irradiance,
+                          shade, sky_component, svf_total, svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy,
+                          shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
+  // The intervals follow from the request, the package and the file
+  [[maybe_unused]] auto& [intervals, sky_model, ground_albedo, facade_albedo, by_month] = *light;
+  [[maybe_unused]] auto& [weather_file, period, light_step, linke_turbidity] = *light_request;
 }
 
 class ResultKey : public testing::Test {
@@ -141,6 +146,25 @@ TEST_F(ResultKey, HasEachQuantity) {
                          {"sun of another day", sun(2026y / 1 / 1, 1, 5min)},
                          {"sun of a year", sun(2026y / 1 / 1, 365, 5min)},
                          {"sun in other steps", sun(2026y / 1 / 1, 365, 10min)}});
+}
+
+TEST_F(ResultKey, HasTheLightOfAPeriod) {
+  SvfOptions lit = raster();
+  lit.evaluation.further.irradiation = true;
+  lit.evaluation.further.light.emplace();
+  lit.light.emplace();
+  const auto light = [](auto change) { return [change](SvfOptions& o) { change(*o.evaluation.further.light); }; };
+  const auto request = [](auto change) { return [change](SvfOptions& o) { change(*o.light); }; };
+  expect_each_to_change(
+      lit, {{"--weather", request([&](LightRequest& r) { r.weather_file = folder.file("a.csv"); })},
+            {"--weather of other contents", request([&](LightRequest& r) { r.weather_file = folder.file("b.csv"); })},
+            {"--period", request([](LightRequest& r) { r.period = period_in("2026-06"); })},
+            {"--step", request([](LightRequest& r) { r.step = std::chrono::minutes(10); })},
+            {"--linke", request([](LightRequest& r) { r.linke_turbidity = 5.0; })},
+            {"--sky-model", light([](Light& l) { l.sky_model = SkyModel::isotropic; })},
+            {"--albedo of the ground", light([](Light& l) { l.ground_albedo = 0.1; })},
+            {"--albedo of façades", light([](Light& l) { l.facade_albedo = 0.1; })},
+            {"--by month", light([](Light& l) { l.by_month = true; })}});
 }
 
 TEST_F(ResultKey, HasWhatCrownsDo) {
