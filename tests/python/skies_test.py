@@ -70,6 +70,14 @@ def test_sun_over_a_street(canyon: farlod.City) -> None:
     assert hours[0] == pytest.approx(2.0)
 
 
+def test_light_in_a_street(canyon: farlod.City) -> None:
+    light = canyon.irradiation([STREET], [0.0, 0.0], [50.0, -5.0], 0.0, [1000.0, 0.0], sky_model="isotropic", month=[6, 12], height=HEIGHT)
+    svf = float(canyon.svf([STREET], height=HEIGHT)[0])
+    assert float(light["irradiation_diffuse"][0]) == pytest.approx(svf, abs=1e-4)
+    assert float(light["irradiation_06"][0]) == pytest.approx(float(light["irradiation"][0]))
+    assert float(light["irradiation_12"][0]) == 0.0 and float(light["irradiation_reflected"][0]) > 0.0
+
+
 def test_looking_up(canyon: farlod.City) -> None:
     sky = canyon.look_up(STREET, height=HEIGHT)
     assert sky is not None

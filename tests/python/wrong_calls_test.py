@@ -94,6 +94,15 @@ CALLS = {
         ((HERE, ["east"], [1.0], [1.0]), {}, "sun"),
         ((HERE, [NAN], [1.0], [1.0]), {}, "sun"),
     ],
+    "irradiation": [
+        ((HERE, [0.0, 1.0, 2.0], [1.0, 2.0], 1.0, 1.0), {}, "one length"),
+        ((HERE, 0.0, 1.0, "bright", 1.0), {}, "direct_normal"),
+        ((HERE, 0.0, 1.0, -1.0, 1.0), {}, "direct irradiance"),
+        ((HERE, 0.0, NAN, 1.0, 1.0), {}, "elevation"),
+        ((HERE, 0.0, 1.0, 1.0, 1.0), dict(sky_model="blue"), '"isotropic"'),
+        ((HERE, 0.0, 1.0, 1.0, 1.0), dict(albedo=[0.1]), "albedo"),
+        ((HERE, 0.0, 1.0, 1.0, 1.0), dict(month=13), "month"),
+    ],
     "look_up": [((HERE,), {}, "shape"), (([1.0],), {}, "shape"), (([NAN, 0.0],), {}, "nowhere")] + [
         ((HERE[0],), keywords, text) for keywords, text in SHARED
     ],
@@ -155,7 +164,7 @@ def test_unknown_keyword_is_a_type_error(village: farlod.City) -> None:
 @pytest.mark.parametrize("function", [name for name in CALLS if name != "check"] + ["check"])
 def test_closed_city(village: farlod.City, function: str) -> None:
     village.close()
-    good = {"sunlit": (HERE, [0.0], [1.0], [1.0]), "look_up": (HERE[0],), "fisheye": (HERE[0],)}
+    good = {"sunlit": (HERE, [0.0], [1.0], [1.0]), "irradiation": (HERE, 0.0, 1.0, 1.0, 1.0), "look_up": (HERE[0],), "fisheye": (HERE[0],)}
     arguments = good.get(function, (HERE,) if function in ("svf", "evaluate", "horizon", "sky_patches") else ())
     with pytest.raises(farlod.InvalidArgument, match="closed"):
         getattr(village, function)(*arguments)
@@ -304,11 +313,12 @@ def test_types_name_the_words_of_the_library():
         "directions": _settings.Directions,
         "above": _settings.Above,
         "canopy_rule": _settings.CanopyRule,
+        "sky_model": _settings.SkyModel,
         "which": _surfaces.Choice,
     }
     assert {name: get_args(words) for name, words in types.items()} == {name: runtime.words[name] for name in types}
     assert ("none", *get_args(_settings.SkyPatches)) == runtime.words["sky_patches"]
     # Others have a keyword or a method of their own
-    others = {"horizon", "horizon_distance", "sky_patches", "sunlit"}
+    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "irradiation", "irradiance", "shade"}
     assert others <= set(runtime.words["quantity"])
     assert get_args(_settings.Quantity) == tuple(word for word in runtime.words["quantity"] if word not in others)

@@ -19,7 +19,7 @@ from farlod import _arguments, _fisheye, _grids, _plots, _surfaces
 from farlod._modules import runtime as _runtime
 from farlod._receivers import Receivers, receivers_of
 from farlod._regions import region_of
-from farlod._settings import Above, Evaluation, Metric, Options, Progress, Quantity, SkyPatches, caller_settings
+from farlod._settings import Above, Evaluation, Light, Metric, Options, Progress, Quantity, SkyModel, SkyPatches, caller_settings
 from farlod.errors import InvalidArgument, PackageUnusable
 
 if TYPE_CHECKING:
@@ -503,6 +503,62 @@ class City:
         evaluation = Evaluation(height=height, above=above, max_error=max_error, sun=sun, options=options)
         table = self._answers(receivers, evaluation)["further"]
         return _labelled(np.ascontiguousarray(table[:, 0]), receivers)
+
+    def irradiation(
+        self,
+        points: Any,
+        azimuth: Any,
+        elevation: Any,
+        direct_normal: Any,
+        diffuse: Any,
+        *,
+        hours: Any = 1.0,
+        month: Any = None,
+        extraterrestrial: Any = 1361.0,
+        sky_model: SkyModel = "perez",
+        albedo: tuple[float, float] = (0.2, 0.2),
+        normals: Any = None,
+        height: float = 1.5,
+        above: Above = "ground",
+        max_error: float | None = None,
+        **options: Unpack[Options],
+    ) -> dict[str, Values]:
+        """What falls on points in a period, in kWh/m²; the crowns of trees let all light through.
+
+        Parameters
+        ----------
+        points, normals : as for :meth:`svf`
+        azimuth, elevation : array_like of float, (m,)
+            Where the sun is in each interval of the period, as pvlib has it.
+        direct_normal, diffuse : array_like of float, (m,)
+            Means of the intervals in W/m², on a plane that faces the sun and from the sky on a level one (DNI and DHI).
+        hours, extraterrestrial : float or array_like of float, (m,)
+            The length of the intervals, and W/m² outside of the atmosphere.
+        month : array_like of int, (m,)
+            1 to 12; adds a value for each month.
+        sky_model : {"perez", "isotropic"}
+        albedo : pair of float
+            What the ground and façades reflect, once.
+        height, above, max_error, **options : as for :meth:`svf`
+
+        Returns
+        -------
+        dict of str to numpy.ndarray of float32, (n,)
+            ``"irradiation"``, of which there are ``"irradiation_direct"``, ``"irradiation_diffuse"`` and
+            ``"irradiation_reflected"``, and with ``month`` ``"irradiation_01"`` …
+
+        Examples
+        --------
+        >>> noon = city.irradiation([[x, y, 300.0]], 180.0, 30.0, direct_normal=800.0, diffuse=100.0)
+        >>> round(float(noon["irradiation"][0]), 3)
+        0.5
+        """
+        receivers = self._receivers(points, normals)
+        light = Light(azimuth, elevation, direct_normal, diffuse, hours, month, extraterrestrial, sky_model, albedo)
+        evaluation = Evaluation(height=height, above=above, max_error=max_error, light=light, options=options)
+        table = self._answers(receivers, evaluation)["further"]
+        names = evaluation.further().columns()
+        return {name: _labelled(np.ascontiguousarray(table[:, k]), receivers) for k, name in enumerate(names)}
 
     # One point
 
