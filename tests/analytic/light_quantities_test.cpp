@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "radiation/perez_sky.hpp"
 #include "tests/analytic/oracles.hpp"
@@ -165,6 +166,48 @@ TEST(Irradiation, OfMonthsAddsUpToThatOfThePeriod) {
     EXPECT_NEAR(got.at("irradiation_01") + got.at("irradiation_11"), got.at("irradiation"), 1e-5);
     EXPECT_GT(got.at("irradiation_11"), 0.0);
   }
+}
+
+/// Receivers on the inner sides of a box without a lid, 10 m wide and 8 m high, whose floor lies 1.5 m below the eye: in the
+/// middles of equal parts, 1 cm before them.
+CellReceivers in_open_box(double floor_z_cell, std::size_t parts) {
+  constexpr double edge_m = 10.0, height_m = 8.0, off_m = 0.01, middle_m = 0.5 * packed_cell_edge_m;
+  CellReceivers result{{0, 0}, {}};
+  const auto add = [&](double x, double y, double z, const Point3f& normal) {
+    const Point3f place{static_cast<float>(middle_m + x), static_cast<float>(middle_m + y), static_cast<float>(floor_z_cell + z)};
+    result.receivers.push_back({result.receivers.size(), place, normal});
+  };
+  const double inside_m = 0.5 * edge_m - off_m;
+  for (std::size_t i = 0; i < parts; ++i)
+    for (std::size_t j = 0; j < parts; ++j) {
+      const double u = (static_cast<double>(i) + 0.5) / static_cast<double>(parts),
+                   v = (static_cast<double>(j) + 0.5) / static_cast<double>(parts);
+      const double along = edge_m * (u - 0.5), up = height_m * v;
+      add(along, edge_m * (v - 0.5), off_m, {0.0F, 0.0F, 1.0F});
+      add(along, -inside_m, up, {0.0F, 1.0F, 0.0F});
+      add(along, inside_m, up, {0.0F, -1.0F, 0.0F});
+      add(-inside_m, along, up, {1.0F, 0.0F, 0.0F});
+      add(inside_m, along, up, {-1.0F, 0.0F, 0.0F});
+    }
+  return result;
+}
+
+TEST(Irradiation, OfAllSidesOfAnOpenBoxIsWhatEntersIt) {
+  const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
+    const std::array<Point2d, 4> corners{{{-5.0, -5.0}, {5.0, -5.0}, {5.0, 5.0}, {-5.0, 5.0}}};
+    for (std::size_t n = 0; n < 4; ++n) builder.add_wall(corners[n], corners[(n + 1) % 4], -packed_eye_m, 8.0 - packed_eye_m);
+  });
+  constexpr std::size_t parts = 16;
+  const CellReceivers receivers = in_open_box(-packed.package().manifest().height_origin_m, parts);
+  const Quantities quantities = irradiation_of(hour_of(180, 40, 0, 1000));
+  const std::size_t columns = columns_of(quantities).size();
+  std::vector<float> svf(receivers.receivers.size()), values(svf.size() * columns);
+  const SkySettings settings{.engine = Engine::automatic, .further = quantities};
+  SkyEvaluator(packed.package(), settings).evaluate(receivers, SkyAnswers(svf, {}, {}, values));
+  double sum = 0.0;
+  for (const Receiver& r : receivers.receivers)
+    sum += (r.normal.z > 0.0F ? 100.0 : 80.0) / (parts * parts) * static_cast<double>(values[r.index * columns]);
+  EXPECT_NEAR(sum, 100.0, 0.5);
 }
 
 TEST(Irradiance, IsTheMeanOfIrradiation) {
