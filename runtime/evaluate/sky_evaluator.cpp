@@ -3,6 +3,7 @@
 #include "evaluate/sky_evaluator.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/cancellation.hpp"
@@ -107,6 +108,11 @@ const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
     file->let_go();
   });
   return pixels_->city ? &*pixels_->city : nullptr;
+}
+
+bool Evaluation::is_unbroken_relief() const {
+  const PixelHeightsFile* const file = package::is_natural_relief(package.manifest()) ? package.pixel_heights() : nullptr;
+  return file != nullptr && std::ranges::none_of(file->height_m(), [](float height_m) { return std::isnan(height_m); });
 }
 
 SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& settings, const std::stop_token& stop)

@@ -53,6 +53,8 @@ struct Evaluation {
   /// The pixels that the city is, where horizons may be found by marching over them: all that is asked for has no bounds, and
   /// nothing lies beyond the raster. Null elsewhere. Thread-safe.
   [[nodiscard]] const PixelCity* pixels(const SkyAnswers& answers) const;
+  /// Whether the city is natural relief, and all of its pixels have a height. Thread-safe.
+  [[nodiscard]] bool is_unbroken_relief() const;
   /// The pixels that all crowns are, where the sky behind them may be found by marching over them from some of these receivers of
   /// a cell: all that is asked for has no bounds, and crowns count by the rule `once`. Null elsewhere. Thread-safe.
   [[nodiscard]] const CanopyCity* canopy_pixels(const CellReceivers& cell, const SkyAnswers& answers) const;

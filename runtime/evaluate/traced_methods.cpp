@@ -123,7 +123,8 @@ class WholeCityMethod final : public TracedMethod {
  private:
   /// Rays of a sample know no bounds; the triangles that are seen tell the value itself.
   void store_exact_sky(const CellReceivers& cell, const SkyAnswers& answers) const {
-    ExactSky sky(evaluation_.city->triangles());
+    ExactSky sky(evaluation_.city->triangles(),
+                 evaluation_.is_unbroken_relief() ? ExactSky::Triangles::of_unbroken_surface : ExactSky::Triangles::any);
     for (const Receiver& r : cell.receivers) {
       throw_if_cancelled(evaluation_.stop);
       const Point3d place = evaluation_.city->scene_from_cell(r.p_cell, cell.cell);

@@ -86,7 +86,7 @@ WedgeEnvelope::Step WedgeEnvelope::step_from(double t, std::size_t now) const {
 /// From the left end to the right one along the highest segment: to where it ends, another one begins above it, or another one
 /// crosses it from below. It comes to an end: a step that leads nowhere is a crossing, and each crossing leads to a steeper
 /// segment.
-WedgeEnvelope::Sky WedgeEnvelope::sky() {
+WedgeEnvelope::Sky WedgeEnvelope::sky_along(std::vector<Segment>* envelope) const {
   Sky sky;
   if (!(to_ > from_)) return sky;
   double t = from_;
@@ -95,9 +95,18 @@ WedgeEnvelope::Sky WedgeEnvelope::sky() {
     const Place left{t, segments_[now].at(t)}, right{step.end, segments_[now].at(step.end)};
     sky.lowest = std::min({sky.lowest, left.y, right.y});
     sky.sky += picture_->sky_above(left, right);
+    if (envelope != nullptr && left.t < right.t) envelope->emplace_back(left, right);
     t = step.end;
     if (t < to_) now = step.next ? *step.next : highest_at(t);
   }
+  return sky;
+}
+
+WedgeEnvelope::Sky WedgeEnvelope::sky_of_kept_envelope() {
+  kept_.clear();
+  const Sky sky = sky_along(&kept_);
+  std::swap(segments_, kept_);
+  lid_ = std::max(lid_, sky.lowest);
   return sky;
 }
 

@@ -24,7 +24,9 @@ class WedgeEnvelope {
   void begin(const Wedge& wedge, const Point3d& normal, SkyWeight weight);
   /// An edge, relative to the receiver.
   void add(const Point3d& a, const Point3d& b);
-  [[nodiscard]] Sky sky();
+  [[nodiscard]] Sky sky() { return sky_along(nullptr); }
+  /// The same, and keeps nothing of the edges but what the envelope is made of: more that are added take less time.
+  [[nodiscard]] Sky sky_of_kept_envelope();
 
  private:
   using Place = PicturePlane::Place;
@@ -36,11 +38,13 @@ class WedgeEnvelope {
     std::optional<std::size_t> next;
   };
   [[nodiscard]] Step step_from(double t, std::size_t now) const;
+  /// Adds the segments of the envelope, from left to right, unless they are null.
+  [[nodiscard]] Sky sky_along(std::vector<Segment>* envelope) const;
 
   std::optional<PicturePlane> picture_;
   double from_ = 0.0, to_ = 0.0;
   double lid_ = 0.0;  ///< a segment over all of the wedge is nowhere lower
-  std::vector<Segment> segments_;
+  std::vector<Segment> segments_, kept_;
 };
 
 }  // namespace farlod

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -155,6 +156,35 @@ TEST_F(PackedTown, ItsSkyIsThatOfAllTrianglesOneByOne) {
                   arcs_rounding)
           << receiver.name;
     }
+}
+
+/// A surface through random heights of pixels of a metre, and receivers above it that look anywhere.
+TEST(ExactSky, EdgesOfAnUnbrokenSurfaceTellItsSky) {
+  constexpr int edge = 60;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> rise(0.0, 2.5), part(-1.0, 1.0);
+  std::vector<double> height_m(edge * edge);
+  for (double& height : height_m) height = part(random) > 0.9 ? 4.0 * rise(random) : rise(random);
+  const auto corner = [&](int x, int y) {
+    return Point3d{double(x), double(y), height_m[static_cast<std::size_t>(y * edge + x)]};
+  };
+  std::vector<TriangleIndex::Corners> triangles;
+  for (int y = 0; y + 1 < edge; ++y)
+    for (int x = 0; x + 1 < edge; ++x) {
+      triangles.push_back({corner(x, y), corner(x + 1, y), corner(x + 1, y + 1)});
+      triangles.push_back({corner(x, y), corner(x + 1, y + 1), corner(x, y + 1)});
+    }
+  const TriangleIndex index(triangles);
+  ExactSky any(index), unbroken(index, ExactSky::Triangles::of_unbroken_surface);
+  for (int n = 0; n < 12; ++n) {
+    const int x = 18 + 2 * n, y = 40 - 2 * n;
+    const double highest = std::max({corner(x, y).z, corner(x + 1, y).z, corner(x + 1, y + 1).z, corner(x, y + 1).z});
+    const Point3d place{x + 0.35, y + 0.6, highest + 0.2};
+    const auto component = [&] { return static_cast<float>(part(random)); };
+    const Point3f normal = n % 3 == 0 ? Point3f{0.0F, 0.0F, 1.0F} : Point3f{component(), component(), component()};
+    for (const SkyWeight weight : {SkyWeight::cosine, SkyWeight::solid_angle})
+      EXPECT_NEAR(unbroken.share_of_sky(64, place, normal, weight), any.share_of_sky(64, place, normal, weight), 1e-9) << n;
+  }
 }
 
 TEST_F(PackedTown, ItsTrianglesAreThoseThatRaysMeet) {
