@@ -23,7 +23,8 @@ Weather weather_of(const LightRequest& request, const PlaceOnEarth& place) {
 /// The light over a place, and what users should know of it.
 LightOfWeather light_at(const PlaceOnEarth& place, const LightRequest& request) {
   const Weather weather = weather_of(request, place);
-  LightOfWeather light = light_of(weather, place, request.step);
+  // What fell at the place of the weather came from the sun that it has there
+  LightOfWeather light = light_of(weather, weather.place.value_or(place), request.step);
   double hours = 0.0;
   for (const LightInterval& interval : light.intervals) hours += interval.hours;
   light.remarks.insert(light.remarks.begin(), weather.remarks.begin(), weather.remarks.end());

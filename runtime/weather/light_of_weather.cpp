@@ -18,11 +18,6 @@ using std::chrono::milliseconds;
 
 constexpr double milliseconds_in_hour = 3'600'000.0;
 
-unsigned month_of(const WeatherInterval& weather, milliseconds clock_ahead_of_utc) {
-  const auto day = std::chrono::floor<std::chrono::days>(weather.middle_utc + clock_ahead_of_utc);
-  return static_cast<unsigned>(std::chrono::year_month_day(day).month());
-}
-
 /// The air of a time in which the sun is refracted: between 0 and 30 °C the sun at the horizon moves by .06°.
 Atmosphere mean_air(const Weather& weather) {
   Atmosphere air{0.0, 0.0};
@@ -72,7 +67,7 @@ LightOfWeather light_of(const Weather& weather, const PlaceOnEarth& place, milli
     const auto count = static_cast<std::size_t>(steps_of(w, step));
     LightInterval interval = interval_of(w, left.first(count));
     left = left.subspan(count);
-    interval.month = month_of(w, weather.clock_ahead_of_utc);
+    interval.month = static_cast<unsigned>(month_of(weather, w));
     if (interval.sun.empty()) direct_at_night += interval.direct_normal_w_m2 * interval.hours / 1000.0;
     light.intervals.push_back(std::move(interval));
   }
