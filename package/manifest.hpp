@@ -161,7 +161,7 @@ struct SurfacePixels {
   double step_m = 0.0;   ///< edge of a pixel
   std::uint32_t columns = 0, rows = 0;
   std::optional<FileStamp> heights = {};    ///< of `heights.bin`, where the surface is made of these pixels
-  std::optional<std::uint64_t> walls = {};  ///< sides of pixels beyond which the surface does not go on, where that is known
+  std::optional<std::uint64_t> walls = {};  ///< sides between two heights that walls stand on, where they were counted
 };
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.

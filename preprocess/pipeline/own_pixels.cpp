@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/own_pixels.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -41,12 +40,23 @@ PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m) {
   return heights;
 }
 
+std::uint64_t walls_of(const package::SurfacePixels& pixels, const PixelHeights& heights) {
+  std::uint64_t walls = 0;
+  const auto count = [&](std::size_t n, std::size_t next, std::uint8_t side) {
+    const bool have_heights = !std::isnan(heights.height_m[n]) && !std::isnan(heights.height_m[next]);
+    if (have_heights && (heights.joined[n] & side) == 0) ++walls;
+  };
+  for (std::size_t row = 0, n = 0; row < pixels.rows; ++row)
+    for (std::size_t column = 0; column < pixels.columns; ++column, ++n) {
+      if (column + 1 < pixels.columns) count(n, n + 1, JoinedPixels::east);
+      if (row + 1 < pixels.rows) count(n, n + pixels.columns, JoinedPixels::north);
+    }
+  return walls;
+}
+
 void write_heights(const std::filesystem::path& folder, const PixelHeights& heights, package::SurfacePixels& pixels) {
   pixels.heights = write_pixel_heights(folder, pixels, heights);
-  std::uint64_t joined = 0;
-  for (const std::uint8_t sides : heights.joined) joined += static_cast<std::uint64_t>(std::popcount(sides));
-  const std::uint64_t columns = pixels.columns, rows = pixels.rows;
-  pixels.walls = (columns - 1) * rows + columns * (rows - 1) - joined;
+  pixels.walls = walls_of(pixels, heights);
 }
 
 }  // namespace farlod::pipeline

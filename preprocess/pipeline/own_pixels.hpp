@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -17,6 +18,8 @@ namespace farlod::pipeline {
 /// The surface that these pixels make.
 [[nodiscard]] PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m);
 
+/// SurfacePixels::walls: what has no height has no walls.
+[[nodiscard]] std::uint64_t walls_of(const package::SurfacePixels& pixels, const PixelHeights& heights);
 /// Writes them into a package's folder, and tells of them.
 void write_heights(const std::filesystem::path& folder, const PixelHeights& heights, package::SurfacePixels& pixels);
 

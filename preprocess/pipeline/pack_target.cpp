@@ -352,7 +352,7 @@ std::optional<BlockPlan> PackTarget::plan_of_relief(PackedCity& result) const {
   if (wants_far_maps || !package::is_natural_relief(result.manifest)) return std::nullopt;
   result.notes.emplace_back(
       "Natural relief: rays march over its pixels, and no far maps are made. Bounds, and what hides the sky near and far, come "
-      "from the whole surface, in a tenth of a second a receiver; --area makes far maps for them");
+      "from the whole surface, in a tenth of a second a receiver and more; --area makes far maps for them");
   return plan_none(result.manifest.grid, existing());
 }
 
