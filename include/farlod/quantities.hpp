@@ -99,6 +99,8 @@ struct Quantities {
 
   [[nodiscard]] FARLOD_EXPORT bool any() const;
   [[nodiscard]] FARLOD_EXPORT bool any_of_canopies() const;
+  /// Those that are of the light of a period.
+  [[nodiscard]] bool any_of_light() const { return irradiation || irradiance || shade; }
   /// Those that know SkyWeight::cosine alone.
   [[nodiscard]] FARLOD_EXPORT bool any_weighted() const;
 };

@@ -20,8 +20,6 @@ namespace {
 
 constexpr const char* group_of_light = "Sun and sky";
 
-bool needs_period(const Quantities& q) { return q.irradiation || q.irradiance || q.shade; }
-
 /// "0.2,0.3": the ground, and façades.
 void set_albedo(const std::string& text, Light& light) {
   if (text.empty()) return;
@@ -58,7 +56,7 @@ const char* given_option(const RawLight& raw) {
 }
 
 void require_fitting(const RawLight& raw, const Quantities& q) {
-  if (!needs_period(q)) {
+  if (!q.any_of_light()) {
     if (const char* const option = given_option(raw))
       throw CLI::ValidationError(option, "it goes with --quantity irradiation, irradiance or shade");
     return;
@@ -104,7 +102,7 @@ void add_light_options(CLI::App& app, RawLight& raw) {
 
 std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quantities) {
   require_fitting(raw, quantities);
-  if (!needs_period(quantities)) return std::nullopt;
+  if (!quantities.any_of_light()) return std::nullopt;
   Light& light = quantities.light.emplace();
   light.sky_model = *value_of(sky_model_words, raw.sky_model);
   light.by_month = raw.by == "month";

@@ -48,20 +48,15 @@ void check(const Light& light) {
   }
 }
 
-void check_light_of(const Quantities& q) {
-  if (q.light) return check(*q.light);
-  for (const QuantityWord& asked : words_of(q))
-    if (asked.word == "irradiation" || asked.word == "irradiance" || asked.word == "shade")
-      throw InvalidArgument(std::string(asked.word) + " is that of a period: give its light (further.light)");
-}
-
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
   if (q.horizon_distances && q.horizons == 0)
     throw InvalidArgument("further.horizon_distances are those of horizons, and further.horizons is 0: give their number");
   for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) check(sun);
-  check_light_of(q);
+  if (q.light) check(*q.light);
+  if (q.any_of_light() && !q.light)
+    throw InvalidArgument("further.irradiation, irradiance and shade are those of a period: give its light (further.light)");
   check(q.canopy);
   if (weight == SkyWeight::cosine) return;
   for (const QuantityWord& asked : words_of(q))

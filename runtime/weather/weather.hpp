@@ -49,12 +49,10 @@ struct Weather {
 /// Reads a file of weather: EPW, the TMY of PVGIS as CSV, TMY3 of NREL, or a table whose first row names time and global, direct
 /// and diffuse irradiance. Its content says which.
 ///   (1) An interval is the one that the format means: in EPW and TMY3 the hour that ends at the time of the row; in files of
-///   PVGIS
-///       the hour around the instant of the row, with the irradiance time offset; in tables the one that begins at `time`, ends
-///       at `end` or has `middle` in its middle, and lasts until the next row.
+///       PVGIS the hour around the instant of the row, with the irradiance time offset; in tables the one that begins at `time`,
+///       ends at `end` or has `middle` in its middle, and lasts until the next row.
 ///   (2) Rows without irradiance (empty, or codes such as −999 and 9999) are left out, and times without rows stay empty: both
-///   are
-///       remarks.
+///       are remarks.
 ///   (3) An irradiance that two others tell is computed; global that stands alone is split after Erbs et al. 1982: remarks.
 ///   (4) Remarks, too, tell a place that is more than 2° from the city, less than 1 % of the irradiance at night, and global
 ///       irradiance that direct and diffuse do not make up.
