@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "canopy/dimmed_sky.hpp"
 #include "horizon/pixel_march.hpp"
 #include "horizon/receiver_packet.hpp"
 
@@ -56,6 +57,7 @@ struct CanopyRow {
   const float *sky_from, *sky;  ///< rows, as those of SkyRows; `sky` may be null
   float *behind, *hidden;       ///< rows: take the sky behind crowns, and solid things behind crowns, F of each azimuth. Or null
   float *sum_behind, *sum_hidden;  ///< take the means over the azimuths, one number a pixel
+  DimmedTaker dimmed;              ///< of the sky behind crowns; lanes are pixels
   std::int32_t column, row;
 };
 

@@ -117,7 +117,7 @@ struct CanopyRay {
 // NOLINTBEGIN(readability-non-const-parameter)
 template <bool is_below>
 FARLOD_LANES Floats march_one(const CanopyFieldView& field, const CanopyPath& path, const SkyWindow& above, const CanopyRow& row,
-                              float* room) {
+                              std::uint32_t azimuth, float* room) {
   const SkyStraightUp sky;
   const SkyWindow window = is_below ? SkyWindow{broadcast(0.0F), above.from, broadcast(1.0F)} : above;
   const std::ptrdiff_t own_pixel = row.row * field.stride + row.column;
@@ -139,7 +139,9 @@ FARLOD_LANES Floats march_one(const CanopyFieldView& field, const CanopyPath& pa
   // Half of what nobody looked at
   Floats behind = 0.5F * window.weight * ray.rest;
   for_each_run(ray.covered, [&](const Floats& from, const Floats& to, const Mask& ends) {
-    behind += choose(ends, sky_within(window, sky, from, to), broadcast(0.0F));
+    const Floats seen = choose(ends, sky_within(window, sky, from, to), broadcast(0.0F));
+    behind += seen;
+    if constexpr (!is_below) tell_dimmed(row.dimmed, azimuth, seen, from, to, nullptr);
   });
   return behind;
 }
@@ -160,8 +162,9 @@ void march(const CanopyFieldView& field, std::span<const CanopyPath> paths, std:
   for (std::size_t k = 0; k < paths.size(); ++k)
     for (std::size_t n = 0; n < rows.size(); ++n) {
       const SkyWindow above = window_above({rows[n].sky_from, nullptr, nullptr, nullptr, rows[n].sky}, k, SkyStraightUp());
-      sums[n].behind.add(march_one<false>(field, paths[k], above, rows[n], room));
-      if (field.solid_m != nullptr) sums[n].hidden.add(march_one<true>(field, paths[k], above, rows[n], room));
+      const auto azimuth = static_cast<std::uint32_t>(k);
+      sums[n].behind.add(march_one<false>(field, paths[k], above, rows[n], azimuth, room));
+      if (field.solid_m != nullptr) sums[n].hidden.add(march_one<true>(field, paths[k], above, rows[n], azimuth, room));
     }
   const auto count = static_cast<float>(paths.size());
   for (std::size_t n = 0; n < rows.size(); ++n) {

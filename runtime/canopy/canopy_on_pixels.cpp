@@ -3,6 +3,7 @@
 #include "canopy/canopy_on_pixels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "base/expects.hpp"
@@ -13,6 +14,8 @@ namespace {
 /// Edge of the squares of pixels whose receivers are a group: a group has no more rows than are marched at once.
 constexpr std::int32_t square_edge = canopy_square;
 static_assert(square_edge == packet_lanes && square_edge == most_canopy_rows && packets_in_group == packet_lanes);
+
+constexpr std::uint32_t all_pixels = (1U << packet_lanes) - 1;
 
 constexpr std::int32_t square_of(std::int32_t pixel) {
   return pixel >= 0 ? pixel / square_edge : -((square_edge - 1 - pixel) / square_edge);
@@ -129,7 +132,12 @@ void CanopyOnPixels::make_ready(Row& row, CanopyRow& marched, std::span<const Sk
 
 void CanopyOnPixels::march_rows(const Answers& answers) {
   const auto first_of = [](std::vector<PacketHorizon::Row>& rows) { return rows.empty() ? nullptr : rows.front().data(); };
+  keepers_.clear();
+  keepers_.reserve(marched_.size());
   for (std::size_t n = 0; n < marched_.size(); ++n) {
+    rows_[n].dimmed.clear();
+    keepers_.push_back({rows_[n].dimmed, 1.0F, all_pixels});
+    marched_[n].dimmed = answers.dimmed.empty() ? DimmedTaker() : keepers_[n].taker();
     marched_[n].sky_from = first_of(rows_[n].sky_from);
     marched_[n].sky = first_of(rows_[n].sky);
     marched_[n].behind = first_of(rows_[n].behind);
@@ -145,8 +153,11 @@ void CanopyOnPixels::march_rows(const Answers& answers) {
 
 void CanopyOnPixels::store(const Row& row, std::int32_t first_column, const Answers& answers) const {
   const std::size_t azimuths = city_.paths.paths().size();
-  for (const auto& [place, packet, lane] : row.receivers) {
+  std::array<const OnPixel*, packet_lanes> above{};
+  for (const OnPixel& receiver : row.receivers) {
+    const auto& [place, packet, lane] = receiver;
     const auto pixel = static_cast<std::size_t>(place.column - first_column);
+    above[pixel] = &receiver;
     answers.behind[packet][lane] = row.sum_behind[pixel];
     if (city_.field.knows_solids()) answers.hidden[packet][lane] = row.sum_hidden[pixel];
     for (std::size_t k = 0; k < row.behind.size(); ++k)
@@ -154,6 +165,11 @@ void CanopyOnPixels::store(const Row& row, std::int32_t first_column, const Answ
     for (std::size_t k = 0; k < row.hidden.size(); ++k)
       answers.hidden_of_azimuths[packet * azimuths + k][lane] = row.hidden[k][pixel];
   }
+  for (DimmedSlopes slopes : row.dimmed)
+    if (const OnPixel* const receiver = above[slopes.lane]) {
+      slopes.lane = receiver->lane;
+      answers.dimmed[receiver->packet].push_back(slopes);
+    }
 }
 
 void CanopyOnPixels::evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
@@ -161,6 +177,7 @@ void CanopyOnPixels::evaluate(std::span<const SkyProfile> profiles, std::span<co
   FARLOD_EXPECTS(profiles.size() == packets.size() && answered.size() == packets.size());
   find_on_pixels(profiles, packets);
   std::ranges::fill(answered, 0U);
+  for (DimmedSky& dimmed : answers.dimmed) dimmed.clear();
   for (const OnPixel& r : found_) answered[r.packet] |= 1U << r.lane;
   for (std::size_t n = 0; n < found_.size();) {
     n = add_row(n, profiles, packets, answers);

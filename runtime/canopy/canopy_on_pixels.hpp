@@ -11,6 +11,7 @@
 #include "base/grid.hpp"
 #include "canopy/canopy_field.hpp"
 #include "canopy/crown_kernels.hpp"
+#include "canopy/dimmed_sky.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
@@ -35,6 +36,8 @@ class CanopyOnPixels {
     std::span<PacketHorizon::Lanes> behind;  ///< of each packet: the sky that is free of solid things and behind any crown
     std::span<PacketHorizon::Lanes> hidden;  ///< solid things behind crowns
     std::span<PacketHorizon::Row> behind_of_azimuths, hidden_of_azimuths;  ///< packet by packet, or empty
+    /// Of each packet, or empty: takes slopes behind crowns, with 1 as the share that is lost.
+    std::span<DimmedSky> dimmed = {};
   };
 
   /// The city must outlive it.
@@ -58,6 +61,7 @@ class CanopyOnPixels {
     std::span<const OnPixel> receivers;
     std::vector<PacketHorizon::Row> sky_from, sky, behind, hidden;
     PacketHorizon::Lanes sum_behind, sum_hidden;
+    DimmedSky dimmed;  ///< its lanes are pixels
   };
   void find_on_pixels(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets);
   /// Takes as many receivers as are above sixteen pixels in a row, from one on. Returns the number of the next.
@@ -75,6 +79,7 @@ class CanopyOnPixels {
   std::vector<OnPixel> found_;
   std::vector<Row> rows_;
   std::vector<CanopyRow> marched_;
+  std::vector<KeepDimmed> keepers_;  ///< of the rows
   std::vector<PacketHorizon::Row> room_;
 };
 

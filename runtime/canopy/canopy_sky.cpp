@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "canopy/canopy_sky.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "base/expects.hpp"
@@ -25,32 +26,46 @@ void make_room(std::vector<T>& room, std::size_t size) {
   if (room.size() < size) room.resize(size + size / 2);
 }
 
+/// The details of one packet, as kernels take them: it must outlive the rows.
+class BehindOfPacket {
+ public:
+  BehindOfPacket(const CanopyDetails& details, const ReceiverPacket& receivers, float share)
+      : behind_(details.behind_of_azimuths.empty() ? nullptr : details.behind_of_azimuths.front().data()) {
+    if (!details.dimmed.empty()) keep_.emplace(details.dimmed.front(), share, receivers.lanes_in_use());
+  }
+  [[nodiscard]] BehindRows rows() { return {behind_, keep_ ? keep_->taker() : DimmedTaker()}; }
+
+ private:
+  float* behind_;
+  std::optional<KeepDimmed> keep_;
+};
+
 }  // namespace
 
 CanopySky::CanopySky(const AzimuthSampling& azimuths, float range_m, const CrownTarget& kernels)
     : azimuths_(azimuths), range_square_(range_m * range_m), kernels_(kernels) {}
 
 CanopyShares CanopySky::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns,
-                                 std::span<Row> behind_of_azimuths) {
+                                 const CanopyDetails& details) {
   CanopyShares shares;
-  evaluate({&profile, 1}, {&receivers, 1}, crowns, {&shares, 1}, behind_of_azimuths);
+  evaluate({&profile, 1}, {&receivers, 1}, crowns, {&shares, 1}, details);
   return shares;
 }
 
 void CanopySky::evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
-                         const CrownBatches& crowns, std::span<CanopyShares> shares, std::span<Row> behind_of_azimuths) {
+                         const CrownBatches& crowns, std::span<CanopyShares> shares, const CanopyDetails& details) {
   FARLOD_EXPECTS(profiles.size() == packets.size() && shares.size() == packets.size());
-  FARLOD_EXPECTS(behind_of_azimuths.empty() || behind_of_azimuths.size() == packets.size() * azimuths_.size());
+  FARLOD_EXPECTS(details.behind_of_azimuths.empty() || details.behind_of_azimuths.size() == packets.size() * azimuths_.size());
+  FARLOD_EXPECTS(details.dimmed.empty() || details.dimmed.size() == packets.size());
   std::ranges::fill(shares, CanopyShares{});
-  std::ranges::fill(behind_of_azimuths, Row{});
+  std::ranges::fill(details.behind_of_azimuths, Row{});
+  for (DimmedSky& dimmed : details.dimmed) dimmed.clear();
   if (crowns.empty() || packets.empty()) return;
   find_lowest_grounds(profiles, packets);
   find_in_sight(packets, crowns);
   if (in_sight_.empty()) return;
-  for (std::size_t n = 0; n < packets.size(); ++n) {
-    float* const of_packet = behind_of_azimuths.empty() ? nullptr : behind_of_azimuths[n * azimuths_.size()].data();
-    shares[n] = evaluate(rows_of(profiles[n]), packets[n], lowest_grounds_[n].data(), of_packet);
-  }
+  for (std::size_t n = 0; n < packets.size(); ++n)
+    shares[n] = evaluate(rows_of(profiles[n]), packets[n], lowest_grounds_[n].data(), details.of_packet(n, packets.size()));
 }
 
 CrownScene CanopySky::scene_of(const ReceiverPacket& receivers, const CrownBatches& crowns) const {
@@ -95,12 +110,11 @@ void CanopySky::sort_from_near_to_far() {
 }
 
 CanopyShares CanopySky::evaluate(const SkyRows& sky, const ReceiverPacket& receivers, const float* lowest,
-                                 float* behind_of_azimuths) {
+                                 const CanopyDetails& details) {
   const CrownScene scene = scene_of(receivers, in_sight_);
   find_seen(scene, bounds_of(receivers).box, {&lowest, 1});
   if (seen_.empty()) return {};
-  return in_sight_.rule() == CanopyRule::once ? by_smallest(sky, scene, lowest, behind_of_azimuths)
-                                              : by_depth(sky, scene, lowest, behind_of_azimuths);
+  return in_sight_.rule() == CanopyRule::once ? by_smallest(sky, scene, lowest, details) : by_depth(sky, scene, lowest, details);
 }
 
 std::size_t CanopySky::begin_lists() {
@@ -124,7 +138,7 @@ std::size_t CanopySky::begin_lists() {
 }
 
 CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& scene, const float* lowest,
-                                       float most_transmissivity, float* rows) {
+                                       float most_transmissivity, const BehindRows& wanted) {
   drawn_.clear();
   for (const SeenCrown& s : seen_) {
     constexpr std::size_t lanes = ReceiverPacket::lanes;
@@ -138,30 +152,34 @@ CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& sce
   kernels_.cover->place(scene, drawn_, placed_.data());
   make_room(room_, 2 * drawn_.size() + 2);
   Lanes behind;
-  kernels_.cover->sum_behind(sky, scene, lists, placed_.data(), room_.front().data(), rows, behind.data());
+  kernels_.cover->sum_behind(sky, scene, lists, placed_.data(), room_.front().data(), wanted, behind.data());
   return behind;
 }
 
-CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene, const float* lowest, float* behind_of_azimuths) {
+CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene, const float* lowest,
+                                    const CanopyDetails& details) {
   // 1 − ψ of all that is behind crowns, with the largest ψ, and the rest of what is behind crowns with the smallest
   const float least = in_sight_.least_transmissivity(), most = in_sight_.most_transmissivity();
   CanopyShares shares;
-  shares.behind = sky_behind(sky, scene, lowest, most, behind_of_azimuths);
+  shares.behind = sky_behind(sky, scene, lowest, most, BehindOfPacket(details, *scene.receivers, 1.0F - most).rows());
   for (std::size_t l = 0; l < shares.lost.size(); ++l) shares.lost[l] = (1.0F - most) * shares.behind[l];
   if (least == most) return shares;
-  const Lanes behind_least = sky_behind(sky, scene, lowest, least, nullptr);
+  const CanopyDetails no_rows{{}, details.dimmed};
+  const Lanes behind_least =
+      sky_behind(sky, scene, lowest, least, BehindOfPacket(no_rows, *scene.receivers, most - least).rows());
   for (std::size_t l = 0; l < shares.lost.size(); ++l) shares.lost[l] += (most - least) * behind_least[l];
   return shares;
 }
 
-// It is written to, through a struct. NOLINTNEXTLINE(readability-non-const-parameter)
-CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, const float* lowest, float* behind_of_azimuths) {
+CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, const float* lowest, const CanopyDetails& details) {
   drawn_ = seen_;
   const std::size_t room = begin_lists();
   counts_.assign(azimuths_.size(), 0);
   make_room(sections_, room);
   make_room(listed_, room);
-  const SectionRows rows{lowest, begins_.data(), counts_.data(), sections_.data(), listed_.data(), behind_of_azimuths};
+  BehindOfPacket wanted(details, *scene.receivers, 1.0F);
+  const SectionRows rows{lowest,         begins_.data(),       counts_.data(),      sections_.data(),
+                         listed_.data(), wanted.rows().behind, wanted.rows().dimmed};
   kernels_.light->cut(scene, drawn_, rows);
   // At most four ends of each section
   constexpr std::size_t most_ends = 4;

@@ -11,6 +11,7 @@
 
 #include "canopy/crown_batches.hpp"
 #include "canopy/crown_kernels.hpp"
+#include "canopy/dimmed_sky.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -29,6 +30,18 @@ struct CanopyShares {
   [[nodiscard]] float svfveg(std::size_t lane) const { return 1.0F - behind[lane]; }
 };
 
+/// What is wanted of packets besides their shares, or nothing.
+struct CanopyDetails {
+  /// Take `behind` of each azimuth by itself, packet by packet: the mean over the azimuths is `behind`, but for rounding.
+  std::span<PacketHorizon::Row> behind_of_azimuths = {};
+  std::span<DimmedSky> dimmed = {};  ///< of each packet: `lost` by slopes, with shares lost as the rule of the run has them
+  /// Those of one packet of so many.
+  [[nodiscard]] CanopyDetails of_packet(std::size_t n, std::size_t packets) const {
+    const std::size_t azimuths = behind_of_azimuths.size() / packets;
+    return {behind_of_azimuths.subspan(n * azimuths, azimuths), dimmed.empty() ? dimmed : dimmed.subspan(n, 1)};
+  }
+};
+
 /// The sky behind crowns, by horizons: at each azimuth of a sampling, a crown hides an interval of slopes, and the sky between
 /// the ends of intervals is integrated in closed form, or by the rule `beer` by a quadrature. docs/concepts.md, "Crowns".
 ///   (1) the shares of a receiver depend on its own profile, place and normal, and on the crowns
@@ -43,13 +56,12 @@ class CanopySky {
   /// Evaluates packets near each other, for which most crowns are culled at once. Profiles, receivers and crowns are of one
   /// frame, and the azimuths those of the profiles. Crowns behind solid things do not count, since a profile has no sky there. In
   /// a gap below an overhang, of whose sky the profile knows the share that is seen and not where, crowns take the same share of
-  /// what they would take from all of it. `behind_of_azimuths`, unless it is empty, takes `behind` of each azimuth by itself,
-  /// packet by packet: the mean over the azimuths is `behind`, but for rounding.
+  /// what they would take from all of it.
   void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, const CrownBatches& crowns,
-                std::span<CanopyShares> shares, std::span<PacketHorizon::Row> behind_of_azimuths = {});
+                std::span<CanopyShares> shares, const CanopyDetails& details = {});
   /// The same of one packet.
   [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns,
-                                      std::span<PacketHorizon::Row> behind_of_azimuths = {});
+                                      const CanopyDetails& details = {});
 
  private:
   using Lanes = PacketHorizon::Lanes;
@@ -62,16 +74,16 @@ class CanopySky {
   void sort_from_near_to_far();
   /// Evaluates one packet, whose lowest ground at each azimuth is `lowest`.
   [[nodiscard]] CanopyShares evaluate(const SkyRows& sky, const ReceiverPacket& receivers, const float* lowest,
-                                      float* behind_of_azimuths);
+                                      const CanopyDetails& details);
   /// Where the list of each azimuth begins, with room for all crowns to be drawn there. Returns the room of all.
   std::size_t begin_lists();
-  /// The share of the sky behind those of the crowns seen that are no more transmissive than this; rows of it, or null.
+  /// The share of the sky behind those of the crowns seen that are no more transmissive than this.
   [[nodiscard]] Lanes sky_behind(const SkyRows& sky, const CrownScene& scene, const float* lowest, float most_transmissivity,
-                                 float* rows);
+                                 const BehindRows& wanted);
   [[nodiscard]] CanopyShares by_smallest(const SkyRows& sky, const CrownScene& scene, const float* lowest,
-                                         float* behind_of_azimuths);
+                                         const CanopyDetails& details);
   [[nodiscard]] CanopyShares by_depth(const SkyRows& sky, const CrownScene& scene, const float* lowest,
-                                      float* behind_of_azimuths);
+                                      const CanopyDetails& details);
 
   const AzimuthSampling& azimuths_;
   float range_square_;

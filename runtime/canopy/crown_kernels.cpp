@@ -177,14 +177,17 @@ FARLOD_LANES CutCrown cut_placed(const PlacedCrown& placed, float cosine, float 
   return placed.is_prism ? cut_prism(kept_square(placed), cosine, sine) : cut_round(kept_round(placed), true, cosine, sine);
 }
 
-/// The sky of a union.
+/// The sky of a union, whose runs are told to those who ask.
 template <class Sky>
-FARLOD_LANES Floats sky_of(const CrownUnion& u, const Sky& sky, const SkyWindow& above, const SkyWindow* gap) {
+FARLOD_LANES Floats sky_of(const CrownUnion& u, const Sky& sky, const SkyWindow& above, const SkyWindow* gap,
+                           const DimmedTaker& taker, std::uint32_t azimuth) {
   Floats sum{};
   for_each_run(u, [&](const Floats& from, const Floats& to, const Mask& ends) {
     Floats term = sky_within(above, sky, from, to);
     if (gap != nullptr) term += sky_within(*gap, sky, from, to);
-    sum += choose(ends, term, broadcast(0.0F));
+    const Floats seen = choose(ends, term, broadcast(0.0F));
+    sum += seen;
+    tell_dimmed(taker, azimuth, seen, from, to, nullptr);
   });
   return sum;
 }
@@ -193,7 +196,8 @@ FARLOD_LANES Floats sky_of(const CrownUnion& u, const Sky& sky, const SkyWindow&
 // The room is written to, through the union. NOLINTBEGIN(readability-non-const-parameter)
 template <class Sky, bool has_gaps>
 FARLOD_LANES Floats sky_behind(const SkyRows& rows, const AzimuthView& azimuths, std::size_t k, const Normals& normals,
-                               std::span<const std::uint32_t> numbers, const PlacedCrown* placed, float* room) {
+                               std::span<const std::uint32_t> numbers, const PlacedCrown* placed, float* room,
+                               const DimmedTaker& taker) {
   const float cosine = azimuths.cosine[k], sine = azimuths.sine[k];
   const Sky sky = sky_at<Sky>(normals, cosine, sine);
   const SkyWindow above = window_above(rows, k, sky);
@@ -203,32 +207,32 @@ FARLOD_LANES Floats sky_behind(const SkyRows& rows, const AzimuthView& azimuths,
   if constexpr (has_gaps) u.ground = ground_of(above.from, gap);
   for (const std::uint32_t number : numbers)
     if (bits_of(broadcast(placed[number].max_slope) > u.ground) != 0) u.join(cut_placed(placed[number], cosine, sine));
-  return sky_of(u, sky, above, has_gaps ? &gap : nullptr);
+  return sky_of(u, sky, above, has_gaps ? &gap : nullptr, taker, static_cast<std::uint32_t>(k));
 }
 // NOLINTEND(readability-non-const-parameter)
 
 template <class Sky, bool has_gaps>
 FARLOD_LANES void sum_behind_of(const SkyRows& rows, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed,
-                                float* room, float* behind, float* sum) {
+                                float* room, const BehindRows& wanted, float* sum) {
   const Normals normals = normals_of(*scene.receivers);
-  Sum total(behind);
+  Sum total(wanted.behind);
   for (std::size_t k = 0; k < scene.azimuths.size; ++k) {
     const std::uint32_t begin = lists.begins[k], end = lists.ends[k];
     // Where there is no crown, 0 counts as a term, since there may be one in other packets of the receiver
     total.add(begin == end ? Floats{}
                            : sky_behind<Sky, has_gaps>(rows, scene.azimuths, k, normals, {lists.numbers + begin, end - begin},
-                                                       placed, room));
+                                                       placed, room, wanted.dimmed));
   }
   store(total.total() / static_cast<float>(scene.azimuths.size), sum);
 }
 
 void sum_behind(const SkyRows& rows, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed, float* room,
-                float* behind, float* sum) {
+                const BehindRows& wanted, float* sum) {
   if (rows.gap_share != nullptr && scene.all_look_up)
-    return sum_behind_of<SkyStraightUp, true>(rows, scene, lists, placed, room, behind, sum);
-  if (rows.gap_share != nullptr) return sum_behind_of<SkyOfNormals, true>(rows, scene, lists, placed, room, behind, sum);
-  if (scene.all_look_up) return sum_behind_of<SkyStraightUp, false>(rows, scene, lists, placed, room, behind, sum);
-  sum_behind_of<SkyOfNormals, false>(rows, scene, lists, placed, room, behind, sum);
+    return sum_behind_of<SkyStraightUp, true>(rows, scene, lists, placed, room, wanted, sum);
+  if (rows.gap_share != nullptr) return sum_behind_of<SkyOfNormals, true>(rows, scene, lists, placed, room, wanted, sum);
+  if (scene.all_look_up) return sum_behind_of<SkyStraightUp, false>(rows, scene, lists, placed, room, wanted, sum);
+  sum_behind_of<SkyOfNormals, false>(rows, scene, lists, placed, room, wanted, sum);
 }
 
 }  // namespace

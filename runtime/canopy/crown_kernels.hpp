@@ -9,6 +9,7 @@
 
 #include "canopy/canopy_march.hpp"
 #include "canopy/crown_batches.hpp"
+#include "canopy/dimmed_sky.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 
@@ -74,6 +75,13 @@ struct SectionRows {
   CrownSection* sections;
   std::uint32_t* crowns;    ///< of each section
   float* behind = nullptr;  ///< takes the sky behind crowns, F of each azimuth: rows, or null
+  DimmedTaker dimmed = {};
+};
+
+/// What is wanted of the sky behind crowns besides its sum.
+struct BehindRows {
+  float* behind = nullptr;  ///< takes F of each azimuth: rows, or null
+  DimmedTaker dimmed = {};
 };
 
 /// Sums over the azimuths, for each receiver: of the sky that crowns take away, and of that which is behind crowns.
@@ -93,9 +101,9 @@ struct CrownKernels {
   /// Puts crowns in their places before the receivers.
   void (*place)(const CrownScene& scene, std::span<const SeenCrown> seen, PlacedCrown* placed);
   /// The share of the sky behind the crowns of lists: `sum`, one number a receiver. `room` has place for two rows for each crown
-  /// of the longest list, and two more. `behind` takes the sky behind crowns, F of each azimuth: rows, or null.
+  /// of the longest list, and two more.
   void (*sum_behind)(const SkyRows& sky, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed, float* room,
-                     float* behind, float* sum);
+                     const BehindRows& wanted, float* sum);
 };
 
 struct CrownLightKernels {

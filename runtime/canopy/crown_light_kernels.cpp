@@ -167,13 +167,23 @@ struct Dimmed {
   Floats share, crowns;
 };
 
+/// Who is told of the slopes that are dimmed.
+struct DimmedAt {
+  const DimmedTaker& taker;
+  std::uint32_t azimuth;
+  FARLOD_LANES void tell(const Segment& segment, const Floats& crowns, const Floats& share) const {
+    tell_dimmed(taker, azimuth, min(segment.high - segment.low, crowns), segment.low, segment.high, &share);
+  }
+};
+
 /// The rule `each`: T is the same throughout.
 struct LightByNumber {
   static constexpr bool has_bends = false;
   const CrownScene& scene;
 
   template <class Sky>
-  FARLOD_LANES Dimmed dimmed(const Segment& segment, const Sky&, const Sections& sections, const Eyes&) const {
+  FARLOD_LANES Dimmed dimmed(const Segment& segment, const Sky&, const Sections& sections, const Eyes&,
+                             const DimmedAt& at) const {
     Floats depth{}, crowns{};
     for (std::uint32_t n = 0; n < sections.count; ++n) {
       const std::uint32_t crown = sections.crowns[n];
@@ -182,7 +192,9 @@ struct LightByNumber {
       depth += choose(is_met, broadcast(of_crown), broadcast(0.0F));
       crowns += choose(is_met, broadcast(1.0F), broadcast(0.0F));
     }
-    return {1.0F - exp_of_minus(min(depth, broadcast(opaque_depth))), crowns};
+    const Floats share = 1.0F - exp_of_minus(min(depth, broadcast(opaque_depth)));
+    at.tell(segment, crowns, share);
+    return {share, crowns};
   }
 };
 
@@ -229,8 +241,22 @@ struct LightByLength {
   static constexpr bool has_bends = true;
   const CrownScene& scene;
 
+  /// Around each node, T counts as that of the node: in a part of sin² as wide as its weight.
+  FARLOD_LANES static void tell_nodes(const Segment& segment, const Nodes& nodes, const Floats& crowns, const DimmedAt& at) {
+    const Floats begin = sine_square_of(segment.low), width = sine_square_of(segment.high) - begin;
+    const Mask is_wide = width > wide_segment;
+    Floats passed{}, from = segment.low;
+    for (std::size_t n = 0; n < nodes.count; ++n) {
+      passed += choose(is_wide, broadcast(many.weight[n]), broadcast(few.weight[n]));
+      const Floats to = n + 1 == nodes.count ? segment.high : min(slope_of_sine_square(begin + passed * width), segment.high);
+      at.tell({from, to}, crowns, 1.0F - exp_of_minus(min(nodes.depth[n], broadcast(opaque_depth))));
+      from = max(from, to);
+    }
+  }
+
   template <class Sky>
-  FARLOD_LANES Dimmed dimmed(const Segment& segment, const Sky& sky, const Sections& sections, const Eyes& eye) const {
+  FARLOD_LANES Dimmed dimmed(const Segment& segment, const Sky& sky, const Sections& sections, const Eyes& eye,
+                             const DimmedAt& at) const {
     Nodes nodes;
     set_nodes(segment, sky, nodes);
     Floats crowns{};
@@ -248,6 +274,7 @@ struct LightByLength {
       weights += nodes.weight[n];
       lost += nodes.weight[n] * (1.0F - exp_of_minus(min(nodes.depth[n], broadcast(opaque_depth))));
     }
+    if (at.taker.take != nullptr) tell_nodes(segment, nodes, crowns, at);
     const Mask is_some = weights > 0.0F;
     return {choose(is_some, lost / choose(is_some, weights, broadcast(1.0F)), broadcast(0.0F)), crowns};
   }
@@ -261,8 +288,8 @@ struct Taken {
 /// A(low) − A(high) times what is dimmed of it.
 template <class Sky, class Light>
 FARLOD_LANES void add_segment(const SkyWindow& window, const Sky& sky, const Segment& segment, const Sections& sections,
-                              const Light& light, const Eyes& eye, Taken& taken) {
-  const Dimmed dimmed = light.dimmed(segment, sky, sections, eye);
+                              const Light& light, const Eyes& eye, const DimmedAt& at, Taken& taken) {
+  const Dimmed dimmed = light.dimmed(segment, sky, sections, eye, at);
   const Floats between = window.weight * sky.between(segment.low, segment.high);
   const Floats behind = choose(min(segment.high - segment.low, dimmed.crowns) > 0.0F, between, broadcast(0.0F));
   taken.behind += behind;
@@ -271,12 +298,12 @@ FARLOD_LANES void add_segment(const SkyWindow& window, const Sky& sky, const Seg
 
 template <class Sky, class Light>
 FARLOD_LANES void add_window(const SkyWindow& window, const Sky& sky, const float* ends, std::size_t count,
-                             const Sections& sections, const Light& light, const Eyes& eye, Taken& taken) {
+                             const Sections& sections, const Light& light, const Eyes& eye, const DimmedAt& at, Taken& taken) {
   Floats low = window.from;
   for (std::size_t n = 0; n < count; ++n) {
     const Floats high = min(max(load(ends + n * lane_count), low), window.to);
     if (bits_of(high > low) == 0) continue;
-    add_segment(window, sky, {low, high}, sections, light, eye, taken);
+    add_segment(window, sky, {low, high}, sections, light, eye, at, taken);
     low = high;
   }
 }
@@ -299,8 +326,9 @@ FARLOD_LANES void sum_light_of(const SkyRows& rows, const CrownScene& scene, con
     sort_ends(ends, count);
     const Sky sky = sky_at<Sky>(normals, scene.azimuths.cosine[k], scene.azimuths.sine[k]);
     Taken taken{Floats{}, Floats{}};
-    add_window(window_above(rows, k, sky), sky, ends, count, sections, light, eye, taken);
-    if (rows.gap_share != nullptr) add_window(window_of_gap(rows, k, sky), sky, ends, count, sections, light, eye, taken);
+    const DimmedAt at{c.dimmed, static_cast<std::uint32_t>(k)};
+    add_window(window_above(rows, k, sky), sky, ends, count, sections, light, eye, at, taken);
+    if (rows.gap_share != nullptr) add_window(window_of_gap(rows, k, sky), sky, ends, count, sections, light, eye, at, taken);
     lost.add(taken.lost);
     behind.add(taken.behind);
   }

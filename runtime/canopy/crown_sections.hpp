@@ -7,6 +7,7 @@
 
 #include "canopy/crown_batches.hpp"
 #include "canopy/crown_kernels.hpp"
+#include "canopy/dimmed_sky.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/sky_lanes.hpp"
 
@@ -94,6 +95,19 @@ FARLOD_LANES Floats sky_within(const SkyWindow& window, const Sky& sky, const Fl
   const Floats from = min(max(low, window.from), window.to), to = min(max(high, from), window.to);
   if (bits_of(to > from) == 0) return Floats{};
   return choose(to > from, window.weight * sky.between(from, to), broadcast(0.0F));
+}
+
+/// Tells the slopes between `from` and `to` to those who ask, for the receivers that see sky there.
+FARLOD_LANES void tell_dimmed(const DimmedTaker& taker, std::uint32_t azimuth, const Floats& seen, const Floats& from,
+                              const Floats& to, const Floats* lost) {
+  if (taker.take == nullptr) return;
+  const std::uint32_t lanes = bits_of(seen > 0.0F);
+  if (lanes == 0) return;
+  alignas(64) float low[lane_count], high[lane_count], shares[lane_count];
+  store(from, low);
+  store(to, high);
+  if (lost != nullptr) store(*lost, shares);
+  taker.take(taker.to, azimuth, lanes, low, high, lost != nullptr ? shares : nullptr);
 }
 
 /// Beyond each slope that counts. A root r, which is at least a/100 where this is multiplied by it, keeps it so.

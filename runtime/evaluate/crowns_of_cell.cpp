@@ -82,28 +82,31 @@ const CrownBatches& CanopyByPlace::batches_at(const Place& place) {
 }
 
 void CanopyByPlace::evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
-                             std::span<CanopyShares> shares, std::span<PacketHorizon::Row> behind_of_azimuths) {
-  if (!depends_on_place_) return sky_.evaluate(profiles, packets, batches_at({}), shares, behind_of_azimuths);
-  const std::size_t azimuths = behind_of_azimuths.size() / std::max<std::size_t>(packets.size(), 1);
+                             std::span<CanopyShares> shares, const CanopyDetails& details) {
+  if (!depends_on_place_) return sky_.evaluate(profiles, packets, batches_at({}), shares, details);
   for (std::size_t n = 0; n < packets.size(); ++n)
-    shares[n] = evaluate(profiles[n], packets[n], behind_of_azimuths.subspan(n * azimuths, azimuths));
+    shares[n] = evaluate(profiles[n], packets[n], details.of_packet(n, packets.size()));
 }
 
-CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                     std::span<PacketHorizon::Row> behind_of_azimuths) {
-  if (!depends_on_place_) return sky_.evaluate(profile, receivers, batches_at({}), behind_of_azimuths);
+CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CanopyDetails& details) {
+  if (!depends_on_place_) return sky_.evaluate(profile, receivers, batches_at({}), details);
   CanopyShares shares;
-  behind_of_some_.resize(behind_of_azimuths.size());
+  behind_of_some_.resize(details.behind_of_azimuths.size());
+  dimmed_of_some_.resize(details.dimmed.size());
+  for (DimmedSky& dimmed : details.dimmed) dimmed.clear();
   for (std::uint32_t left = all_lanes; left != 0;) {
     const Place place = place_of(receivers, static_cast<std::size_t>(std::countr_zero(left)));
     std::uint32_t some = 0;
     for (std::size_t l = 0; l < packet_lanes; ++l) some |= place_of(receivers, l) == place ? 1U << l : 0U;
     left &= ~some;
     for (const std::uint32_t together : split(receivers, some)) {
-      const CanopyShares of_some = sky_.evaluate(profile, packet_of(receivers, together), batches_at(place), behind_of_some_);
+      const CanopyShares of_some =
+          sky_.evaluate(profile, packet_of(receivers, together), batches_at(place), {behind_of_some_, dimmed_of_some_});
       copy_lanes(of_some.lost, together, shares.lost);
       copy_lanes(of_some.behind, together, shares.behind);
-      for (std::size_t k = 0; k < behind_of_azimuths.size(); ++k) copy_lanes(behind_of_some_[k], together, behind_of_azimuths[k]);
+      for (std::size_t k = 0; k < behind_of_some_.size(); ++k)
+        copy_lanes(behind_of_some_[k], together, details.behind_of_azimuths[k]);
+      for (std::size_t n = 0; n < dimmed_of_some_.size(); ++n) append_lanes(dimmed_of_some_[n], together, details.dimmed[n]);
     }
   }
   return shares;

@@ -35,10 +35,9 @@ class CanopyByPlace {
 
   /// As CanopySky::evaluate.
   void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, std::span<CanopyShares> shares,
-                std::span<PacketHorizon::Row> behind_of_azimuths);
+                const CanopyDetails& details);
   /// The same of one packet.
-  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                      std::span<PacketHorizon::Row> behind_of_azimuths);
+  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CanopyDetails& details);
 
  private:
   using Place = std::pair<std::int32_t, std::int32_t>;
@@ -52,6 +51,7 @@ class CanopyByPlace {
   CanopySky sky_;
   std::map<Place, CrownBatches> batches_;  ///< made when first needed
   std::vector<PacketHorizon::Row> behind_of_some_;
+  std::vector<DimmedSky> dimmed_of_some_;
 };
 
 /// The crowns around a cell, those far away merged, and how far that may lead astray. Of one thread.
@@ -66,8 +66,8 @@ class CrownsOfCell {
   [[nodiscard]] bool are_none() const { return canopy_.crowns.empty() && canopy_.highest_slope_left_out <= 0.0F; }
   /// As CanopySky::evaluate.
   void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, std::span<CanopyShares> shares,
-                std::span<PacketHorizon::Row> behind_of_azimuths) {
-    by_place_.evaluate(profiles, packets, shares, behind_of_azimuths);
+                const CanopyDetails& details) {
+    by_place_.evaluate(profiles, packets, shares, details);
   }
   /// CanopyShares::lost of these crowns and that of all crowns of the city, one by one, differ by at most so much, above the same
   /// profile, but for what merging pixels does. docs/concepts.md, "Bounds with crowns".
