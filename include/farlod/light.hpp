@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "farlod/angle.hpp"
@@ -34,7 +37,15 @@ struct LightInterval {
   double diffuse_w_m2 = 0.0;              ///< of the sky, on a level plane
   double extraterrestrial_w_m2 = 1361.0;  ///< outside of the atmosphere, on a plane that faces the sun
   unsigned month = 1;                     ///< 1 to 12
+  std::chrono::local_seconds begin{};     ///< on the clock of the period
+  /// The same two as light to the eye, where it is known.
+  std::optional<double> direct_normal_lux = {}, diffuse_lux = {};
 };
+
+/// Whether it has a sun above the horizon.
+[[nodiscard]] inline bool has_sun(const LightInterval& interval) {
+  return std::any_of(interval.sun.begin(), interval.sun.end(), [](const SunPosition& s) { return s.elevation.radians() > 0.0; });
+}
 
 /// The light of a period, and what reflects it.
 struct Light {
@@ -43,6 +54,7 @@ struct Light {
   /// The shares of light that the ground and façades reflect, 0 to 1.
   double ground_albedo = 0.2, facade_albedo = 0.2;
   bool by_month = false;  ///< irradiation has a column for each month, too
+  bool by_step = false;   ///< shade has a column for each interval with a sun above the horizon, too
 };
 
 }  // namespace farlod

@@ -31,7 +31,9 @@ enum EpwColumn : std::size_t {
   epw_pressure,
   epw_global = 13,
   epw_direct,
-  epw_diffuse
+  epw_diffuse,
+  epw_direct_lux = 17,
+  epw_diffuse_lux
 };
 
 constexpr double pa_per_hpa = 100.0;
@@ -104,6 +106,8 @@ WeatherRow epw_row(const WeatherText& text, std::size_t n, const std::vector<std
   row.global_w_m2 = text.number(n, fields, epw_global, "global horizontal radiation");
   row.direct_normal_w_m2 = text.number(n, fields, epw_direct, "direct normal radiation");
   row.diffuse_w_m2 = text.number(n, fields, epw_diffuse, "diffuse horizontal radiation");
+  row.direct_normal_lux = if_number(fields, epw_direct_lux);
+  row.diffuse_lux = if_number(fields, epw_diffuse_lux);
   row.temperature_c = if_number(fields, epw_temperature);
   row.dew_point_c = if_number(fields, epw_dew_point);
   row.humidity_percent = if_number(fields, epw_humidity);

@@ -51,6 +51,8 @@ LightInterval interval_of(const WeatherInterval& weather, std::span<const SunDir
       interval.sun.push_back({sun.azimuth, sun.elevation, interval.hours / static_cast<double>(steps.size())});
   interval.direct_normal_w_m2 = weather.direct_normal_w_m2;
   interval.diffuse_w_m2 = weather.diffuse_w_m2;
+  interval.direct_normal_lux = weather.direct_normal_lux;
+  interval.diffuse_lux = weather.diffuse_lux;
   interval.extraterrestrial_w_m2 = extraterrestrial_w_m2(weather.middle_utc);
   return interval;
 }
@@ -68,6 +70,8 @@ LightOfWeather light_of(const Weather& weather, const PlaceOnEarth& place, milli
     LightInterval interval = interval_of(w, left.first(count));
     left = left.subspan(count);
     interval.month = static_cast<unsigned>(month_of(weather, w));
+    interval.begin = std::chrono::floor<std::chrono::seconds>(
+        ClockTime((w.middle_utc - w.duration / 2).time_since_epoch() + weather.clock_ahead_of_utc));
     if (interval.sun.empty()) direct_at_night += interval.direct_normal_w_m2 * interval.hours / 1000.0;
     light.intervals.push_back(std::move(interval));
   }

@@ -138,6 +138,8 @@ WeatherRow tmy3_row(const WeatherText& text, std::size_t n, const TmyColumns& co
   row.global_w_m2 = text.number(n, fields, columns.of("GHI (W/m^2)"), "GHI");
   row.direct_normal_w_m2 = text.number(n, fields, columns.of("DNI (W/m^2)"), "DNI");
   row.diffuse_w_m2 = text.number(n, fields, columns.of("DHI (W/m^2)"), "DHI");
+  row.direct_normal_lux = columns.if_any(fields, "DN illum (lx)");
+  row.diffuse_lux = columns.if_any(fields, "DH illum (lx)");
   row.temperature_c = columns.if_any(fields, "Dry-bulb (C)");
   row.dew_point_c = columns.if_any(fields, "Dew-point (C)");
   row.humidity_percent = columns.if_any(fields, "RHum (%)");

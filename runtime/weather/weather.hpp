@@ -20,6 +20,7 @@ struct WeatherInterval {
   std::chrono::milliseconds duration{};
   /// Means of the interval. Global and diffuse are those of a level plane, direct is that of a plane that faces the sun.
   double global_w_m2 = 0.0, direct_normal_w_m2 = 0.0, diffuse_w_m2 = 0.0;
+  std::optional<double> direct_normal_lux = {}, diffuse_lux = {};  ///< where the file has both
   /// The usual values where the file has none: 15 °C, the standard atmosphere's pressure at the height of the place, and the dew
   /// point of air of 60 % relative humidity.
   double temperature_c = 15.0, pressure_hpa = 1013.25, dew_point_c = 7.3;

@@ -19,6 +19,7 @@ struct WeatherRow {
   std::size_t line = 0;
   ClockTime stamp;  ///< as the file writes it, on the clock of the file
   std::optional<double> global_w_m2 = {}, direct_normal_w_m2 = {}, diffuse_w_m2 = {};
+  std::optional<double> direct_normal_lux = {}, diffuse_lux = {};
   std::optional<double> temperature_c = {}, dew_point_c = {}, humidity_percent = {}, pressure_hpa = {};
 };
 

@@ -58,6 +58,20 @@ void keep_between(std::optional<double>& value, double lowest, double highest) {
   if (value && !(lowest <= *value && *value <= highest)) value.reset();
 }
 
+/// Twice as much light to the eye as there is in a watt of the sun is none, and so is none of it by day.
+bool can_be_lux(double lux, double w_m2) {
+  constexpr double most_lux_in_watt = 300.0, dark_w_m2 = 20.0;
+  return 0.0 <= lux && lux <= most_lux_in_watt * (w_m2 + dark_w_m2) && (lux > 0.0 || w_m2 < dark_w_m2);
+}
+
+void set_illuminance(const WeatherRow& row, WeatherInterval& interval) {
+  if (!row.direct_normal_lux || !row.diffuse_lux) return;
+  if (!can_be_lux(*row.direct_normal_lux, interval.direct_normal_w_m2) || !can_be_lux(*row.diffuse_lux, interval.diffuse_w_m2))
+    return;
+  interval.direct_normal_lux = row.direct_normal_lux;
+  interval.diffuse_lux = row.diffuse_lux;
+}
+
 bool tells_irradiance(const WeatherRow& row) { return row.global_w_m2 || (row.direct_normal_w_m2 && row.diffuse_w_m2); }
 
 void tell_missing_rows(WeatherTable& table, const WeatherText& text) {
@@ -195,6 +209,7 @@ std::vector<WeatherInterval> intervals_of(WeatherTable& table, const std::option
     interval.direct_normal_w_m2 = row.direct_normal_w_m2.value_or(0.0);
     interval.diffuse_w_m2 = row.diffuse_w_m2.value_or(0.0);
     filler.fill(row, interval);
+    set_illuminance(row, interval);
     set_air(row, interval, usual_pressure_hpa);
     intervals.push_back(interval);
   }

@@ -95,6 +95,30 @@ TEST(Epw, MonthsOfDifferentYearsAreTypical) {
   EXPECT_THAT(weather_in(file.text()).remarks, ElementsAre(HasSubstr("It ends early")));
 }
 
+TEST(Epw, KnowsTheIlluminanceThatCanBeTrue) {
+  const auto with_lux = [](double direct_lux_in_watt, double diffuse_lux_in_watt) {
+    return weather_in(epw_of("2019-06",
+                             [&](EpwRow& row) {
+                               row.direct_lux = direct_lux_in_watt * row.direct;
+                               row.diffuse_lux = diffuse_lux_in_watt * row.diffuse;
+                             })
+                          .text())
+        .intervals;
+  };
+  for (const WeatherInterval& hour : with_lux(95.0, 120.0)) {
+    ASSERT_TRUE(hour.direct_normal_lux && hour.diffuse_lux);
+    EXPECT_NEAR(*hour.direct_normal_lux, 95.0 * hour.direct_normal_w_m2, 100.0 * six_digits);
+    EXPECT_NEAR(*hour.diffuse_lux, 120.0 * hour.diffuse_w_m2, 200.0 * six_digits);
+  }
+  // Hundreds of lux, none by day, and the code of nothing known
+  const auto knows_noon = [](const std::vector<WeatherInterval>& hours) { return hours[12].diffuse_lux.has_value(); };
+  EXPECT_TRUE(knows_noon(with_lux(95.0, 120.0)));
+  EXPECT_FALSE(knows_noon(with_lux(9500.0, 12000.0)));
+  EXPECT_FALSE(knows_noon(with_lux(0.0, 0.0)));
+  EXPECT_FALSE(knows_noon(
+      weather_in(epw_of("2019-06", [](EpwRow& row) { row.direct_lux = row.diffuse_lux = 999999.0; }).text()).intervals));
+}
+
 TEST(Epw, RowsWithoutIrradianceAreLeftOut) {
   for (const double code : {9999.0, 99999.0, -999.0, -9999.0}) {
     std::size_t count = 0;

@@ -51,11 +51,13 @@ struct EpwFile {
 struct EpwRow {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
   double global = 0.0, direct = 0.0, diffuse = 0.0;
+  double direct_lux = 0.0, diffuse_lux = 0.0;
 
   [[nodiscard]] std::string text() const {
     std::ostringstream row;
     row << year << ',' << month << ',' << day << ',' << hour << ',' << minute << ",?9?9?9,18.5,12.5,68,101000,0,0,300," << global
-        << ',' << direct << ',' << diffuse << ",0,0,0,0,270,3.5,5,5,20,77777,9,999999999,0,.1,0,88";
+        << ',' << direct << ',' << diffuse << ",0," << direct_lux << ',' << diffuse_lux
+        << ",0,270,3.5,5,5,20,77777,9,999999999,0,.1,0,88";
     return row.str();
   }
 };
