@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radiation/light_table.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "radiation/perez_sky.hpp"
@@ -111,33 +114,12 @@ void add_sun(const SunPosition& sun, double energy, const SortedTurns& turns, Pa
   }
 }
 
-void add_direct(const LightInterval& interval, const SortedTurns& turns, Parts& parts) {
+void add_direct(const LightInterval& interval, double energy, const SortedTurns& turns, Parts& parts) {
   double hours_of_sun = 0.0;
   for (const SunPosition& sun : interval.sun) hours_of_sun += sun.elevation.radians() > 0.0 ? sun.hours : 0.0;
-  const double energy = energy_kwh_m2(interval.direct_normal_w_m2, interval.hours);
   if (!(energy > 0.0) || !(hours_of_sun > 0.0)) return;
   for (const SunPosition& sun : interval.sun)
     if (sun.elevation.radians() > 0.0) add_sun(sun, energy * sun.hours / hours_of_sun, turns, parts);
-}
-
-/// The light of some of the intervals.
-struct DirectAndDiffuse {
-  Parts direct, diffuse;
-};
-template <class Wanted>
-DirectAndDiffuse light_of(const Light& light, std::span<const double> turns, const Wanted& wanted) {
-  const std::size_t size = turns.size() * LightTable::last_knot;
-  DirectAndDiffuse result{Parts(size), Parts(size)};
-  const SortedTurns sorted(turns);
-  SkyGrid sky;
-  for (const LightInterval& interval : light.intervals) {
-    if (!wanted(interval)) continue;
-    sky.add(interval, light.sky_model);
-    add_direct(interval, sorted, result.direct);
-  }
-  add_sky(
-      turns, sky.on_level(), [&](double turn, Angle at) { return sky.radiance(turn, at); }, result.diffuse);
-  return result;
 }
 
 void add(const Parts& more, Parts& parts) {
@@ -147,24 +129,99 @@ void add(const Parts& more, Parts& parts) {
   }
 }
 
-/// Layers one by one, each with parts of all azimuths.
-std::vector<Parts> layers_of(const Light& light, std::span<const double> turns, std::span<const unsigned> months) {
+/// What counts of an interval: on a plane that faces the sun, and of the sky on a level plane.
+struct Amounts {
+  double direct_normal, diffuse;
+};
+using Measure = Amounts (*)(const LightInterval& interval);
+Amounts in_kwh_m2(const LightInterval& interval) {
+  return {energy_kwh_m2(interval.direct_normal_w_m2, interval.hours), energy_kwh_m2(interval.diffuse_w_m2, interval.hours)};
+}
+Amounts in_lux_hours(const LightInterval& interval) {
+  return {interval.direct_normal_lux.value_or(0.0) * interval.hours, interval.diffuse_lux.value_or(0.0) * interval.hours};
+}
+
+/// The light of some intervals: of their sun, and of their skies.
+struct SunAndSky {
+  Parts direct;
+  SkyGrid sky;
+};
+SunAndSky sun_and_sky_of(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure, std::size_t parts,
+                         const SortedTurns& turns) {
+  SunAndSky light{Parts(parts), SkyGrid()};
+  for (const LightInterval* const interval : intervals) {
+    const Amounts amounts = measure(*interval);
+    light.sky.add(*interval, model, amounts.diffuse);
+    add_direct(*interval, amounts.direct_normal, turns, light.direct);
+  }
+  return light;
+}
+
+/// The same by several threads: so many pieces are added up in their order, whoever made them.
+SunAndSky sun_and_sky_in_pieces(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure,
+                                std::size_t parts, const SortedTurns& turns) {
+  constexpr std::size_t pieces = 16;
+  std::vector<SunAndSky> of_pieces(pieces);
+  oneapi::tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t n) {
+    const std::size_t begin = n * intervals.size() / pieces, end = (n + 1) * intervals.size() / pieces;
+    of_pieces[n] = sun_and_sky_of(intervals.subspan(begin, end - begin), model, measure, parts, turns);
+  });
+  SunAndSky all = std::move(of_pieces.front());
+  for (const SunAndSky& piece : std::span(of_pieces).subspan(1)) {
+    add(piece.direct, all.direct);
+    all.sky.add(piece.sky);
+  }
+  return all;
+}
+
+struct DirectAndDiffuse {
+  Parts direct, diffuse;
+};
+template <class Wanted>
+DirectAndDiffuse light_of(const Light& light, std::span<const double> turns, Measure measure, const Wanted& wanted) {
+  std::vector<const LightInterval*> intervals;
+  for (const LightInterval& interval : light.intervals)
+    if (wanted(interval)) intervals.push_back(&interval);
   const std::size_t size = turns.size() * LightTable::last_knot;
-  std::vector<Parts> layers(static_cast<std::size_t>(LightLayer::first_month), Parts(size));
+  SunAndSky all = sun_and_sky_in_pieces(intervals, light.sky_model, measure, size, SortedTurns(turns));
+  DirectAndDiffuse result{std::move(all.direct), Parts(size)};
+  add_sky(
+      turns, all.sky.on_level(), [&](double turn, Angle at) { return all.sky.radiance(turn, at); }, result.diffuse);
+  return result;
+}
+
+double up_of(const Parts& parts) {
+  return std::accumulate(parts.begin(), parts.end(), 0.0, [](double sum, const Part& part) { return sum + part.up; });
+}
+
+/// Layers one by one, each with parts of all azimuths.
+struct Layers {
+  std::vector<Parts> of;
+  std::vector<float> diffuse_of_totals;
+  /// Adds all light as one layer.
+  void add_total(DirectAndDiffuse light) {
+    diffuse_of_totals.push_back(static_cast<float>(up_of(light.diffuse)));
+    add(light.diffuse, light.direct);
+    of.push_back(std::move(light.direct));
+  }
+};
+Layers layers_of(const Light& light, std::span<const double> turns, std::span<const unsigned> months, bool with_illuminance) {
+  const std::size_t size = turns.size() * LightTable::last_knot;
+  Layers layers{std::vector<Parts>(static_cast<std::size_t>(LightLayer::first_total), Parts(size)), {}};
   add_sky(
       turns, 1.0, [](double, Angle at) { return overcast_radiance(Angle::degrees(90.0) - at); },
-      layers[static_cast<std::size_t>(LightLayer::overcast)]);
+      layers.of[static_cast<std::size_t>(LightLayer::overcast)]);
   add_sky(
-      turns, 1.0, [](double, Angle) { return 1.0; }, layers[static_cast<std::size_t>(LightLayer::uniform)]);
+      turns, 1.0, [](double, Angle) { return 1.0; }, layers.of[static_cast<std::size_t>(LightLayer::uniform)]);
   for (std::size_t n = 0; n < std::max<std::size_t>(1, months.size()); ++n) {
     DirectAndDiffuse part =
-        light_of(light, turns, [&](const LightInterval& i) { return months.empty() || i.month == months[n]; });
-    add(part.direct, layers[static_cast<std::size_t>(LightLayer::direct)]);
-    add(part.diffuse, layers[static_cast<std::size_t>(LightLayer::diffuse)]);
-    if (months.empty()) break;
-    layers.push_back(std::move(part.direct));
-    layers.push_back(std::move(part.diffuse));
+        light_of(light, turns, in_kwh_m2, [&](const LightInterval& i) { return months.empty() || i.month == months[n]; });
+    add(part.direct, layers.of[static_cast<std::size_t>(LightLayer::direct)]);
+    add(part.diffuse, layers.of[static_cast<std::size_t>(LightLayer::diffuse)]);
+    if (!months.empty()) layers.add_total(std::move(part));
   }
+  if (with_illuminance)
+    layers.add_total(light_of(light, turns, in_lux_hours, [](const LightInterval& i) { return i.diffuse_lux.has_value(); }));
   return layers;
 }
 
@@ -179,14 +236,21 @@ std::vector<unsigned> months_by_name(const Light& light) {
   return months;
 }
 
-LightTable::LightTable(const Light& light, std::span<const double> turns)
-    : layers_((static_cast<std::size_t>(LightLayer::first_month) + 2 * months_by_name(light).size() + group - 1) / group * group),
+LightTable::LightTable(const Light& light, std::span<const double> turns, bool with_illuminance)
+    : layers_((static_cast<std::size_t>(LightLayer::first_total) + months_by_name(light).size() + (with_illuminance ? 1 : 0) +
+               group - 1) /
+              group * group),
       months_(months_by_name(light)),
       values_(turns.size() * (last_knot + 1) * 2 * layers_),
       on_level_(layers_),
       on_upright_(layers_) {
-  for (const LightInterval& interval : light.intervals) hours_ += interval.hours;
-  const std::vector<Parts> layers = layers_of(light, turns, months_);
+  for (const LightInterval& interval : light.intervals) {
+    hours_ += interval.hours;
+    hours_of_illuminance_ += interval.diffuse_lux ? interval.hours : 0.0;
+  }
+  Layers all_layers = layers_of(light, turns, months_, with_illuminance);
+  diffuse_of_totals_ = std::move(all_layers.diffuse_of_totals);
+  const std::vector<Parts>& layers = all_layers.of;
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     Part all;
     for (std::size_t k = 0; k < turns.size(); ++k) {

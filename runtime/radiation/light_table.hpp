@@ -12,13 +12,14 @@
 
 namespace farlod {
 
-/// What a table has of each direction. The energies of a month follow as two layers each: direct, diffuse.
+/// What a table has of each direction. Totals follow, direct and diffuse together: the energy of each month in kWh/m², and the
+/// illuminance in lx h.
 enum class LightLayer : std::size_t {
   direct,    ///< kWh/m²
   diffuse,   ///< kWh/m²
   overcast,  ///< the CIE's overcast sky: 1 on a level plane
   uniform,   ///< a sky of the same radiance everywhere: 1 on a level plane
-  first_month
+  first_total
 };
 
 /// The months of a period that irradiation has columns for, ascending: none unless they are asked for.
@@ -32,10 +33,10 @@ enum class LightLayer : std::size_t {
 class LightTable {
  public:
   /// Azimuths are shares of the turn, clockwise from true north; each stands for the same part of it.
-  LightTable(const Light& light, std::span<const double> turns);
+  LightTable(const Light& light, std::span<const double> turns, bool with_illuminance = false);
 
-  /// With those of twelve months.
-  static constexpr std::size_t most_layers = 28;
+  /// With those of twelve months, and illuminance.
+  static constexpr std::size_t most_layers = 20;
   /// Layers of a knot, padded to whole groups of four.
   [[nodiscard]] std::size_t layers() const { return layers_; }
   /// Months that have layers: months_by_name.
@@ -65,17 +66,20 @@ class LightTable {
   /// On planes in the open, of each layer: a level one, and the mean of all upright ones.
   [[nodiscard]] std::span<const float> on_level() const { return on_level_; }
   [[nodiscard]] std::span<const float> on_upright() const { return on_upright_; }
+  /// Totals are those of months(), and then illuminance: what a level plane in the open gets of the diffuse light of each.
+  [[nodiscard]] std::span<const float> diffuse_of_totals() const { return diffuse_of_totals_; }
   [[nodiscard]] double hours() const { return hours_; }
+  [[nodiscard]] double hours_of_illuminance() const { return hours_of_illuminance_; }
 
  private:
   std::size_t layers_;
   std::vector<unsigned> months_;
-  double hours_ = 0.0;
+  double hours_ = 0.0, hours_of_illuminance_ = 0.0;
   /// Layers that lie side by side, for vectors of the processor.
   static constexpr std::size_t group = 4;
   /// values_[azimuth][knot][group of layers]: the integrals along the azimuth of four layers, then those upwards.
   std::vector<float> values_;
-  std::vector<float> on_level_, on_upright_;
+  std::vector<float> on_level_, on_upright_, diffuse_of_totals_;
 };
 
 }  // namespace farlod

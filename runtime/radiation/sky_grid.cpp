@@ -60,18 +60,23 @@ SkyGrid::SkyGrid() : radiances_(azimuths * bands), relative_(azimuths * bands) {
   }
 }
 
-void SkyGrid::add(const LightInterval& interval, SkyModel model) {
-  const double energy = energy_kwh_m2(interval.diffuse_w_m2, interval.hours);
-  if (!(energy > 0.0)) return;
-  on_level_ += energy;
+void SkyGrid::add(const LightInterval& interval, SkyModel model, double on_level) {
+  if (!(on_level > 0.0) || !(interval.diffuse_w_m2 > 0.0)) return;
+  on_level_ += on_level;
   const std::optional<SunPosition> sun = mean_sun(interval);
-  if (!sun || model == SkyModel::isotropic) return add_uniform(energy);
+  if (!sun || model == SkyModel::isotropic) return add_uniform(on_level);
   // While the sun is up, there is the light of all of the interval
   const double share = interval.hours / std::min(interval.hours, sun->hours);
   const SkyState state =
       sky_state(Angle::degrees(90.0) - sun->elevation,
                 {share * interval.diffuse_w_m2, share * interval.direct_normal_w_m2, interval.extraterrestrial_w_m2});
-  add_perez(state, sun->azimuth, energy);
+  add_perez(state, sun->azimuth, on_level);
+}
+
+void SkyGrid::add(const SkyGrid& other) {
+  on_level_ += other.on_level_;
+  uniform_ += other.uniform_;
+  for (std::size_t n = 0; n < radiances_.size(); ++n) radiances_[n] += other.radiances_[n];
 }
 
 void SkyGrid::add_perez(const SkyState& state, Angle sun_azimuth, double energy) {

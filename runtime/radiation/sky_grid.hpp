@@ -24,7 +24,13 @@ class SkyGrid {
 
   /// Adds the diffuse light of an interval, in kWh/m² on a level plane. Without a sun, and by the model isotropic, it comes from
   /// everywhere alike.
-  void add(const LightInterval& interval, SkyModel model);
+  void add(const LightInterval& interval, SkyModel model) {
+    add(interval, model, energy_kwh_m2(interval.diffuse_w_m2, interval.hours));
+  }
+  /// The same of another amount on a level plane, spread alike.
+  void add(const LightInterval& interval, SkyModel model, double on_level);
+  /// Adds all that another grid has.
+  void add(const SkyGrid& other);
   /// In kWh/(m² sr): between the middles of bins it is interpolated, and beyond those of the first and the last band constant.
   [[nodiscard]] double radiance(double turn, Angle elevation) const;
   [[nodiscard]] double on_level() const { return on_level_; }

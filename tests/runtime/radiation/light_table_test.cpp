@@ -160,8 +160,13 @@ TEST(LightTable, MonthsHaveTheLightOfTheirHours) {
   const LightTable table(light, turns());
   ASSERT_EQ(std::vector<unsigned>(table.months().begin(), table.months().end()), (std::vector<unsigned>{1, 2, 6, 11}));
   const std::array<double, 4> diffuse_of_month{0.09, 0.2, 0.25, 0.06};
-  for (std::size_t n = 0; n < diffuse_of_month.size(); ++n)
-    EXPECT_NEAR(table.on_level()[static_cast<std::size_t>(LightLayer::first_month) + 2 * n + 1], diffuse_of_month[n], 1e-6);
+  for (std::size_t n = 0; n < diffuse_of_month.size(); ++n) EXPECT_NEAR(table.diffuse_of_totals()[n], diffuse_of_month[n], 1e-6);
+  for (const auto& on_plane : {table.on_level(), table.on_upright()}) {
+    float of_months = 0.0F;
+    for (std::size_t n = 0; n < table.months().size(); ++n)
+      of_months += on_plane[static_cast<std::size_t>(LightLayer::first_total) + n];
+    EXPECT_NEAR(of_months, on_plane[direct] + on_plane[diffuse], 1e-6);
+  }
   EXPECT_NEAR(table.on_level()[direct], all.on_level()[direct], 1e-6);
   EXPECT_NEAR(table.on_upright()[diffuse], all.on_upright()[diffuse], 1e-6);
   EXPECT_DOUBLE_EQ(table.hours(), 5.0);
