@@ -58,17 +58,22 @@ struct Quantities {
   std::optional<Light> light = {};
   /// What falls on the receiver in the period, in kWh/m²: columns `irradiation`, `irradiation_direct` of the sun,
   /// `irradiation_diffuse` of the sky, `irradiation_reflected`, and with Light::by_month `irradiation_01` … for each month that
-  /// there is. Crowns of trees let all light through. What is reflected is one bounce: the ground in the open sends the share
+  /// there is. Crowns of trees take their share of what comes from the sun and the sky, by the rule of `canopy`, and reflect
+  /// nothing. What is reflected is one bounce: the ground in the open sends the share
   /// `ground_albedo` of what falls on it to all that a receiver sees of the lower half of its sphere, and all else that hides sky
   /// the share `facade_albedo` of what falls on the mean upright plane in the open.
   bool irradiation = false;
   /// The mean of the same over the period, by day and by night, in W/m²: column `irradiance`.
   bool irradiance = false;
+  /// The mean of the light to the eye, in lx, over the intervals that know theirs (LightInterval::diffuse_lux): column
+  /// `illuminance`. Otherwise as irradiance.
+  bool illuminance = false;
   /// The share of the hours with a sun above the horizon in which it does not shine on the receiver's front: column `shade`. NaN
-  /// where there are no such hours.
+  /// where there are no such hours. Where the sun shines through crowns, what they take of it counts as shade. With
+  /// Light::by_step `shade_20260621T1000` … for each interval that begins then.
   bool shade = false;
   /// What comes from the CIE's overcast sky, as a share of what a level plane in the open gets: column `sky_component`. Of a
-  /// wall it is the vertical sky component.
+  /// wall it is the vertical sky component. Crowns take their share, as of irradiation.
   bool sky_component = false;
   /// What crowns of trees do to the sky, by the rule of `canopy`; a package without trees has none. `svf`, horizons and all else
   /// stay those of buildings and ground.
@@ -100,7 +105,9 @@ struct Quantities {
   [[nodiscard]] FARLOD_EXPORT bool any() const;
   [[nodiscard]] FARLOD_EXPORT bool any_of_canopies() const;
   /// Those that are of the light of a period.
-  [[nodiscard]] bool any_of_light() const { return irradiation || irradiance || shade; }
+  [[nodiscard]] bool any_of_light() const { return irradiation || irradiance || illuminance || shade; }
+  /// Those that crowns dim, where a package has some.
+  [[nodiscard]] bool any_dimmed_by_crowns() const { return any_of_light() || sky_component; }
   /// Those that know SkyWeight::cosine alone.
   [[nodiscard]] FARLOD_EXPORT bool any_weighted() const;
 };

@@ -58,25 +58,26 @@ const char* given_option(const RawLight& raw) {
 void require_fitting(const RawLight& raw, const Quantities& q) {
   if (!q.any_of_light()) {
     if (const char* const option = given_option(raw))
-      throw CLI::ValidationError(option, "it goes with --quantity irradiation, irradiance or shade");
+      throw CLI::ValidationError(option, "it goes with --quantity irradiation, irradiance, illuminance or shade");
     return;
   }
   if (raw.weather_file.empty() && raw.period.empty())
     throw CLI::ValidationError("--quantity",
-                               "irradiation, irradiance and shade are those of a period: give --weather, a file of "
+                               "irradiation, irradiance, illuminance and shade are those of a period: give --weather, a file of "
                                "it, or --period, of which the sky is clear then");
   if (!raw.weather_file.empty() && raw.linke_turbidity)
     throw CLI::ValidationError("--linke", "it is that of a clear sky: leave it or --weather out");
-  if (!raw.by.empty() && !q.irradiation) throw CLI::ValidationError("--by", "it goes with --quantity irradiation");
+  if (raw.by == "month" && !q.irradiation) throw CLI::ValidationError("--by", "month goes with --quantity irradiation");
+  if (raw.by == "step" && !q.shade) throw CLI::ValidationError("--by", "step goes with --quantity shade");
 }
 
 }  // namespace
 
 void add_light_options(CLI::App& app, RawLight& raw) {
-  app.add_option(
-         "--weather", raw.weather_file,
-         "Weather for irradiation, irradiance and shade: EPW, a TMY of PVGIS or NREL, or a CSV of times and global, direct "
-         "and diffuse irradiance. Without it, the sky of --period is clear")
+  app.add_option("--weather", raw.weather_file,
+                 "Weather for irradiation, irradiance, illuminance and shade: EPW, a TMY of PVGIS or NREL, or a CSV of times and "
+                 "global, direct "
+                 "and diffuse irradiance. Without it, the sky of --period is clear")
       ->type_name(file_value)
       ->group(group_of_light);
   app.add_option("--period", raw.period,
@@ -97,7 +98,9 @@ void add_light_options(CLI::App& app, RawLight& raw) {
                  "Shares that the ground and facades reflect, as 0.2,0.2 (default): one bounce, by the share of the view that is "
                  "not sky")
       ->group(group_of_light);
-  app.add_option("--by", raw.by, "month: irradiation of each month, too")->check(CLI::IsMember({"month"}))->group(group_of_light);
+  app.add_option("--by", raw.by, "month: irradiation of each month, too; step: shade of each --step, or row of the weather")
+      ->check(CLI::IsMember({"month", "step"}))
+      ->group(group_of_light);
 }
 
 std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quantities) {
@@ -106,6 +109,7 @@ std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quan
   Light& light = quantities.light.emplace();
   light.sky_model = *value_of(sky_model_words, raw.sky_model);
   light.by_month = raw.by == "month";
+  light.by_step = raw.by == "step";
   set_albedo(raw.albedo, light);
   LightRequest request{.weather_file = raw.weather_file, .period = period_of(raw.period)};
   if (raw.step_minutes > 0) request.step = std::chrono::minutes(static_cast<std::int64_t>(raw.step_minutes));

@@ -69,7 +69,7 @@ void add_light(const LightRequest& request, const Light& light, AnswerKey& key) 
   key.emplace_back("--step", fmt::format("{}", request.step.count()));
   key.emplace_back("--sky-model", word_for(sky_model_words, light.sky_model));
   key.emplace_back("--albedo", fmt::format("{},{}", light.ground_albedo, light.facade_albedo));
-  if (light.by_month) key.emplace_back("--by", "month");
+  if (light.by_month || light.by_step) key.emplace_back("--by", light.by_month ? "month" : "step");
 }
 
 void add_canopy(const CanopySettings& canopy, AnswerKey& key) {
@@ -108,7 +108,8 @@ AnswerKey key_of(const SvfOptions& o) {
   add_quantities(o.evaluation.further, key);
   if (o.sunshine) add_sun(*o.sunshine, key);
   if (o.light) add_light(*o.light, o.evaluation.further.light.value_or(Light{}), key);
-  if (o.evaluation.further.any_of_canopies()) add_canopy(o.evaluation.further.canopy, key);
+  if (o.evaluation.further.any_of_canopies() || o.evaluation.further.any_dimmed_by_crowns())
+    add_canopy(o.evaluation.further.canopy, key);
   // The frame of a raster tells its box
   if (o.bbox_projected && o.source != ReceiverSource::grid) key.emplace_back("--bbox", text_of(*o.bbox_projected));
   if (!o.mask_file.empty()) key.emplace_back("--mask", name_of_file(o.mask_file));

@@ -181,6 +181,8 @@ void CanopyAnswers::make_room(std::size_t packets) {
   marched_.assign(packets, 0);
   behind_sums_.resize(packets);
   hidden_sums_.resize(packets);
+  dimmed_.resize(packets);
+  for (DimmedSky& dimmed : dimmed_) dimmed.clear();
   behind_.resize(q.directional_vegetation ? packets * azimuths : 0);
   hidden_.resize(q.svfaveg || q.directional_vegetation || q.sky_shares ? packets * azimuths : 0);
 }
@@ -193,21 +195,25 @@ CanopyAnswers::Rows CanopyAnswers::rows_of(std::size_t packet) {
   return {part(behind_), part(hidden_)};
 }
 
-std::span<const CanopyAnswers::Answers> CanopyAnswers::evaluate(std::span<const SkyProfile> profiles,
-                                                                std::span<const ReceiverPacket> packets,
-                                                                std::span<const SkiesOfPacket> skies) {
-  FARLOD_EXPECTS(skies.size() == packets.size());
+void CanopyAnswers::see(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {
   make_room(packets.size());
   if (on_pixels_) march(profiles, packets);
   find_shares(profiles, packets);
+}
+
+std::span<const CanopyAnswers::Answers> CanopyAnswers::evaluate(std::span<const SkyProfile> profiles,
+                                                                std::span<const ReceiverPacket> packets,
+                                                                std::span<const SkiesOfPacket> skies) {
+  FARLOD_EXPECTS(skies.size() == packets.size() && shares_.size() == packets.size());
   for (std::size_t n = 0; n < packets.size(); ++n) answers_[n] = of_packet(n, profiles[n], packets[n], skies[n]);
   return answers_;
 }
 
 void CanopyAnswers::march(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {
-  on_pixels_->evaluate(
-      profiles, packets,
-      {behind_sums_, hidden_sums_, behind_, knows_hidden_ ? std::span(hidden_) : std::span<PacketHorizon::Row>()}, marched_);
+  on_pixels_->evaluate(profiles, packets,
+                       {behind_sums_, hidden_sums_, behind_, knows_hidden_ ? std::span(hidden_) : std::span<PacketHorizon::Row>(),
+                        wanted_of(dimmed_)},
+                       marched_);
   const auto lost = static_cast<float>(1.0 - transmissivity_of(on_pixels_->foliage(), further_.quantities().canopy));
   for (std::size_t n = 0; n < packets.size(); ++n)
     for (std::size_t l = 0; l < packets[n].count; ++l)
@@ -215,22 +221,26 @@ void CanopyAnswers::march(std::span<const SkyProfile> profiles, std::span<const 
         shares_[n].behind[l] = behind_sums_[n][l];
         shares_[n].lost[l] = lost * behind_sums_[n][l];
       }
+  for (DimmedSky& dimmed : dimmed_)
+    for (DimmedSlopes& slopes : dimmed) slopes.lost = lost;
 }
 
 void CanopyAnswers::find_shares(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {
   if (!on_pixels_) {
-    if (!crowns().are_none()) crowns().evaluate(profiles, packets, shares_, behind_);
+    if (!crowns().are_none()) crowns().evaluate(profiles, packets, shares_, {behind_, wanted_of(dimmed_)});
     return;
   }
   some_behind_.resize(behind_.empty() ? 0 : further_.azimuths().size());
+  some_dimmed_.resize(1);
   for (std::size_t n = 0; n < packets.size(); ++n) {
     const std::uint32_t left = packets[n].lanes_in_use() & ~marched_[n];
     if (left == 0 || crowns().are_none()) continue;
     CanopyShares shares;
-    crowns().evaluate(profiles.subspan(n, 1), packets.subspan(n, 1), {&shares, 1}, some_behind_);
+    crowns().evaluate(profiles.subspan(n, 1), packets.subspan(n, 1), {&shares, 1}, {some_behind_, wanted_of(some_dimmed_)});
     copy_lanes(shares.lost, left, shares_[n].lost);
     copy_lanes(shares.behind, left, shares_[n].behind);
     for (std::size_t k = 0; k < some_behind_.size(); ++k) copy_lanes(some_behind_[k], left, rows_of(n).behind[k]);
+    append_lanes(some_dimmed_.front(), left, dimmed_[n]);
   }
 }
 

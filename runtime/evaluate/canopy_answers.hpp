@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "canopy/canopy_on_pixels.hpp"
+#include "canopy/dimmed_sky.hpp"
 #include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_answers.hpp"
@@ -68,8 +69,11 @@ class CanopyAnswers {
   CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
                 CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);
 
-  /// The answers of packets near each other, valid until the next call. CanopyLoss::building, which takes rays, is 0 where no
-  /// quantity needs it.
+  /// Finds what crowns take of the sky of packets near each other. What follows is of these packets.
+  void see(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets);
+  /// Where crowns dim the sky of a packet, if a quantity needs it (FurtherQuantities::needs_dimmed_sky).
+  [[nodiscard]] const DimmedSky& dimmed(std::size_t packet) const { return dimmed_[packet]; }
+  /// The answers, valid until see() is called. CanopyLoss::building, which takes rays, is 0 where no quantity needs it.
   [[nodiscard]] std::span<const Answers> evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
                                                   std::span<const SkiesOfPacket> skies);
   /// How many rays were traced against the whole city so far.
@@ -82,6 +86,10 @@ class CanopyAnswers {
   };
   [[nodiscard]] Rows rows_of(std::size_t packet);
   [[nodiscard]] CrownsOfCell& crowns();
+  /// Nothing, where no quantity needs dimmed skies.
+  [[nodiscard]] std::span<DimmedSky> wanted_of(std::vector<DimmedSky>& dimmed) const {
+    return further_.needs_dimmed_sky() ? std::span(dimmed) : std::span<DimmedSky>();
+  }
   void make_room(std::size_t packets);
   void march(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets);
   /// For the receivers that no march answers.
@@ -113,6 +121,8 @@ class CanopyAnswers {
   std::vector<PacketHorizon::Lanes> behind_sums_, hidden_sums_;
   std::vector<PacketHorizon::Row> behind_, hidden_;            ///< at each azimuth, of all packets: Rows
   std::vector<PacketHorizon::Row> some_behind_, some_hidden_;  ///< of one
+  std::vector<DimmedSky> dimmed_;                              ///< of each packet
+  std::vector<DimmedSky> some_dimmed_;                         ///< of one
   std::vector<Answers> answers_;
   std::optional<CrownsOfCell> by_name_;  ///< made when first needed, as the next ones, which are for rays
   std::optional<Occluder> near_;

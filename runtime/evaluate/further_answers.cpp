@@ -242,18 +242,22 @@ void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty
 
 void FurtherAnswers::find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
                                    std::span<const PacketAnswer> drawn) {
+  const std::span<const SkyProfile> profiles = std::span(profiles_).first(packets.size());
+  canopies_->see(profiles, packets);
+  of_canopies_ = {};
+  if (drawn.empty() || quantities_.canopy_columns().count == 0) return;
   skies_.clear();
   for (std::size_t n = 0; n < packets.size(); ++n) {
     const std::span<const std::uint32_t> of_packet = numbers.first(packets[n].count);
     skies_.push_back(skies_of(drawn[n], cell_, of_packet, answers_));
     numbers = numbers.subspan(packets[n].count);
   }
-  of_canopies_ = canopies_->evaluate(std::span(profiles_).first(packets.size()), packets, skies_);
+  of_canopies_ = canopies_->evaluate(profiles, packets, skies_);
 }
 
 void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
                            std::span<const PacketAnswer> drawn) {
-  FARLOD_EXPECTS(!canopies_ || drawn.size() == packets.size());
+  FARLOD_EXPECTS(drawn.empty() || drawn.size() == packets.size());
   if (near_sky_) near_sky_->evaluate(packets);
   if (canopies_) find_canopies(packets, numbers, drawn);
   for (std::size_t n = 0; n < packets.size(); ++n) {
@@ -271,8 +275,9 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   }
   const std::size_t columns = quantities_.size();
   values_.resize(numbers.size() * columns);
-  quantities_.evaluate({profiles_[packet], receivers, sky, rows_}, values_);
-  if (canopies_) {
+  static const DimmedSky undimmed;
+  quantities_.evaluate({profiles_[packet], receivers, sky, canopies_ ? canopies_->dimmed(packet) : undimmed, rows_}, values_);
+  if (!of_canopies_.empty()) {
     const auto [first, count] = quantities_.canopy_columns();
     for (std::size_t l = 0; l < numbers.size(); ++l)
       write_canopy_columns(quantities_.quantities(), sky.svf[l], of_canopies_[packet][l],

@@ -36,7 +36,8 @@ class FurtherAnswers {
   /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
   /// receiver of the cell.
   void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
-  /// The values of canopies are found for each group; otherwise their places are left out. store() then needs what is drawn.
+  /// What crowns do to the sky is found for each group. The values of canopies are stored for what is drawn, and otherwise their
+  /// places are left out.
   void draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
   /// How many rays were traced against the whole city so far.

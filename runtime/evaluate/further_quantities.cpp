@@ -155,7 +155,7 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
   if (quantities.sky_patches != SkyPatchSet::none) divide_into_patches();
   if (quantities.sun) sun_ = sorted_by_azimuth(*quantities.sun);
   if (quantities.shade) sort_sun_of_light();
-  if (needs_light()) light_.emplace(quantities.light.value_or(Light{}), turns_);
+  if (needs_light()) light_.emplace(quantities.light.value_or(Light{}), turns_, quantities.illuminance);
 }
 
 HorizonColumns FurtherQuantities::horizon_columns() const {
@@ -237,7 +237,7 @@ void FurtherQuantities::add_shadow_patches(const ProfiledPacket&, QuantityColumn
 }
 
 void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, rows] = packet;
+  const auto& [profile, receivers, sky, dimmed, rows] = packet;
   find_sky(profile, profile.solid_sky, receivers, azimuths_, true, rows);
   Lanes svf = sum(rows.terms);
   for (float& s : svf) s = std::clamp(s, 0.0F, 1.0F);
@@ -245,7 +245,7 @@ void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns&
 }
 
 void FurtherQuantities::add_directional(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, rows] = packet;
+  const auto& [profile, receivers, sky, dimmed, rows] = packet;
   find_sky(profile, profile.sky, receivers, azimuths_, false, rows);
   const Lanes all = sum(rows.terms);
   for (const std::array<double, packet_lanes>& sums : halves_.sums(rows.terms)) {
@@ -260,7 +260,7 @@ void FurtherQuantities::add_directional(const ProfiledPacket& packet, QuantityCo
 }
 
 void FurtherQuantities::add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, rows] = packet;
+  const auto& [profile, receivers, sky, dimmed, rows] = packet;
   for (const Band& band : bands_) {
     std::vector<std::array<double, packet_lanes>> seen(band.patches), all(band.patches);
     const auto add_to = [&](std::vector<std::array<double, packet_lanes>>& patches, const std::vector<Row>& terms) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "canopy/dimmed_sky.hpp"
 #include "evaluate/quantity_table.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "farlod/point.hpp"
@@ -59,7 +60,9 @@ struct ProfiledPacket {
   /// Working memory, kept from packet to packet.
   struct Rows {
     std::vector<PacketHorizon::Row> low, high, terms, open_terms;
-    std::vector<float> light;  ///< light[receiver][layer] of a LightTable
+    std::vector<float> light;                    ///< light[receiver][layer] of a LightTable
+    std::vector<float> lost;                     ///< what crowns take of it
+    std::vector<PacketHorizon::Row> seen_share;  ///< of the sky above each azimuth's horizon, where horizons jump
   };
   /// svf as it is answered, and with needs_near_sky() that of the near geometry alone.
   struct Sky {
@@ -68,6 +71,7 @@ struct ProfiledPacket {
   const SkyProfile& profile;
   const ReceiverPacket& receivers;
   const Sky& sky;
+  const DimmedSky& dimmed;  ///< by crowns
   Rows& rows;
 };
 
@@ -89,6 +93,10 @@ class FurtherQuantities {
   /// Whether anything is made of profiles: canopies and shadow patches alone may be traced without them.
   [[nodiscard]] bool needs_profiles() const { return size_ > crowns_.count + shadow_patches_.count; }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
+  /// Whether something is made of light, which crowns dim.
+  [[nodiscard]] bool needs_dimmed_sky() const { return needs_light() || quantities_.shade; }
+  /// Whether crowns count for anything.
+  [[nodiscard]] bool needs_crowns() const { return crowns_.count > 0 || needs_dimmed_sky(); }
 
   /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
   [[nodiscard]] HorizonColumns horizon_columns() const;
@@ -114,6 +122,7 @@ class FurtherQuantities {
   void add_shadow_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_irradiation(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_irradiance(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_illuminance(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_shade(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_sky_component(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
@@ -121,15 +130,22 @@ class FurtherQuantities {
   void divide_into_patches();
   void sort_sun_of_light();
   [[nodiscard]] bool needs_light() const {
-    return quantities_.irradiation || quantities_.irradiance || quantities_.sky_component;
+    return quantities_.irradiation || quantities_.irradiance || quantities_.illuminance || quantities_.sky_component;
   }
   /// What the receivers get of each layer of the light, as their profiles and their sky view factors say.
   void find_light(const ProfiledPacket& packet) const;
-  /// What each receiver gets from the sun, from the sky, and once reflected. `direct` is the first of both layers.
+  using Lanes = PacketHorizon::Lanes;
+  /// What each receiver gets in the period from the sun, from the sky, and once reflected.
   struct LightParts {
-    PacketHorizon::Lanes direct, diffuse, reflected;
+    Lanes direct, diffuse, reflected;
+    Lanes beside_profile;  ///< of `diffuse`, what the sky view factor knows beside the profile: a share of that on a level plane
+    [[nodiscard]] Lanes sum() const;
   };
-  [[nodiscard]] LightParts light_parts(const ProfiledPacket& packet, std::size_t direct) const;
+  [[nodiscard]] LightParts light_parts(const ProfiledPacket& packet) const;
+  /// Of all light of a layer.
+  [[nodiscard]] float reflected(const ProfiledPacket& packet, std::size_t lane, std::size_t layer) const;
+  /// All that each receiver gets of one of the totals of the table. Those of all months add up to the period.
+  [[nodiscard]] Lanes total_light(const ProfiledPacket& packet, const LightParts& parts, std::size_t total) const;
 
   /// A patch that a part of the turn around an azimuth lies in, and the share of it that does.
   struct PatchShare {
@@ -146,9 +162,20 @@ class FurtherQuantities {
   struct SunAtAzimuth {
     std::vector<float> slopes;
     std::vector<double> hours;
+    [[nodiscard]] double hours_between(float from, float to) const;
   };
+  /// Those of a time, and their hours with a sun above the horizon.
+  struct SunOfTime {
+    std::vector<SunAtAzimuth> at_azimuths;
+    double hours = 0.0;
+  };
+  [[nodiscard]] SunOfTime sun_of(std::span<const LightInterval> intervals) const;
+  [[nodiscard]] Lanes shade_of(const SunOfTime& time, const ProfiledPacket& packet) const;
   [[nodiscard]] std::size_t nearest_azimuth(Angle azimuth) const;
   [[nodiscard]] std::vector<SunAtAzimuth> sorted_by_azimuth(std::span<const SunPosition> sun) const;
+  /// Those in which the sun stands between two slopes of an azimuth, in the sky of a receiver and before its front.
+  [[nodiscard]] double hours_between(float from, float to, const SunAtAzimuth& sun, std::size_t azimuth,
+                                     const ProfiledPacket& packet, std::size_t lane) const;
   [[nodiscard]] std::array<double, ReceiverPacket::lanes> hours_of(const std::vector<SunAtAzimuth>& sun,
                                                                    const ProfiledPacket& packet) const;
 
@@ -160,8 +187,9 @@ class FurtherQuantities {
   std::vector<std::size_t> azimuth_of_horizon_;
   SkyHalves halves_;
   std::vector<Band> bands_;
-  std::vector<SunAtAzimuth> sun_, sun_of_light_;
-  double hours_of_light_ = 0.0;  ///< with a sun above the horizon
+  std::vector<SunAtAzimuth> sun_;
+  SunOfTime sun_of_light_;
+  std::vector<SunOfTime> sun_of_steps_;
   std::optional<LightTable> light_;
 };
 

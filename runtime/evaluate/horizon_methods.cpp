@@ -106,7 +106,7 @@ class MethodWithHorizons : public SkyMethod {
     const FurtherQuantities& wanted = evaluation_.further;
     if (!wanted.empty()) further.listen_to(engine);
     if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far, gap_settings());
-    if (wanted.canopy_columns().count > 0)
+    if (wanted.canopy_columns().count > 0 || (wanted.needs_dimmed_sky() && evaluation_.package.has_crowns()))
       further.draw_canopies(evaluation_.package, certainty_of_canopies(), canopy, evaluation_.stop);
   }
 };

@@ -60,10 +60,28 @@ class LightOfColumn {
     for (std::size_t l = 0; l < packet_.receivers.count; ++l, sums += light_.layers()) {
       face(l);
       read(profile.sky_from[azimuth][l], zenith_slope, here_.data());
-      if (!profile.sky.empty()) move_jump(l);
+      if (!profile.sky.empty()) {
+        packet_.rows.seen_share[azimuth][l] = share_above_horizon(l);
+        move_jump(l);
+      }
       for (std::size_t n = 0; n < light_.layers(); ++n) sums[n] += here_[n];
-      if (!profile.gap_share.empty() && profile.gap_share[azimuth][l] > 0.0F) add_gap(l, sums);
+      if (has_gap(l)) add_between(profile.gap_from[azimuth][l], profile.gap_to[azimuth][l], profile.gap_share[azimuth][l], sums);
     }
+  }
+
+  /// Adds what crowns take between two slopes to lost[receiver][layer], after add_to of their azimuth.
+  void add_lost(const DimmedSlopes& dimmed, float* lost) {
+    const SkyProfile& profile = packet_.profile;
+    azimuth_ = dimmed.azimuth;
+    const std::size_t l = dimmed.lane;
+    lost += l * light_.layers();
+    face(l);
+    // Where the horizon jumps, they take so much of what is left above it
+    const float seen = profile.sky.empty() ? 1.0F : packet_.rows.seen_share[azimuth_][l];
+    add_between(std::max(dimmed.low, profile.sky_from[azimuth_][l]), dimmed.high, dimmed.lost * seen, lost);
+    if (!has_gap(l)) return;
+    add_between(std::max(dimmed.low, profile.gap_from[azimuth_][l]), std::min(dimmed.high, profile.gap_to[azimuth_][l]),
+                dimmed.lost * profile.gap_share[azimuth_][l], lost);
   }
 
  private:
@@ -85,10 +103,17 @@ class LightOfColumn {
     light_.read_above(azimuth_, LightTable::place_of(to), normal_.outward, normal_.upward, above_.data());
     for (std::size_t n = 0; n < light_.layers(); ++n) layers[n] -= above_[n];
   }
-  void add_gap(std::size_t lane, float* sums) {
-    const SkyProfile& profile = packet_.profile;
-    read(profile.gap_from[azimuth_][lane], profile.gap_to[azimuth_][lane], here_.data());
-    for (std::size_t n = 0; n < light_.layers(); ++n) sums[n] += profile.gap_share[azimuth_][lane] * here_[n];
+  [[nodiscard]] bool has_gap(std::size_t lane) const {
+    return !packet_.profile.gap_share.empty() && packet_.profile.gap_share[azimuth_][lane] > 0.0F;
+  }
+  void add_between(float from, float to, float share, float* sums) {
+    read(from, to, here_.data());
+    for (std::size_t n = 0; n < light_.layers(); ++n) sums[n] += share * here_[n];
+  }
+  /// The sky that the profile knows, as a share of that above the slope of the horizon.
+  [[nodiscard]] float share_above_horizon(std::size_t lane) const {
+    const float above = here_[static_cast<std::size_t>(LightLayer::uniform)];
+    return above > 0.0F ? packet_.profile.sky[azimuth_][lane] * of_turn_ / above : 0.0F;
   }
   /// Where the horizon jumps between two azimuths, the sky of the profile knows at which place: so much of this azimuth's part of
   /// the turn has the horizon of its neighbor.
@@ -162,38 +187,55 @@ std::vector<FurtherQuantities::SunAtAzimuth> FurtherQuantities::sorted_by_azimut
   return sorted;
 }
 
-void FurtherQuantities::sort_sun_of_light() {
+FurtherQuantities::SunOfTime FurtherQuantities::sun_of(std::span<const LightInterval> intervals) const {
+  SunOfTime time;
   std::vector<SunPosition> sun;
-  for (const LightInterval& interval : quantities_.light.value_or(Light{}).intervals)
+  for (const LightInterval& interval : intervals)
     for (const SunPosition& position : interval.sun) {
       if (position.elevation.radians() <= 0.0) continue;
       sun.push_back(position);
-      hours_of_light_ += position.hours;
+      time.hours += position.hours;
     }
-  sun_of_light_ = sorted_by_azimuth(sun);
+  time.at_azimuths = sorted_by_azimuth(sun);
+  return time;
 }
 
-std::array<double, packet_lanes> FurtherQuantities::hours_of(const std::vector<SunAtAzimuth>& sun_at_azimuths,
+void FurtherQuantities::sort_sun_of_light() {
+  const std::vector<LightInterval> none, &intervals = quantities_.light ? quantities_.light->intervals : none;
+  sun_of_light_ = sun_of(intervals);
+  if (!quantities_.light || !quantities_.light->by_step) return;
+  for (const LightInterval& interval : intervals)
+    if (has_sun(interval)) sun_of_steps_.push_back(sun_of({&interval, 1}));
+}
+
+double FurtherQuantities::SunAtAzimuth::hours_between(float from, float to) const {
+  const auto hours_above = [this](float slope) {
+    const auto first = std::upper_bound(slopes.begin(), slopes.end(), slope) - slopes.begin();
+    return hours[static_cast<std::size_t>(first)];
+  };
+  return from < to ? hours_above(from) - hours_above(to) : 0.0;
+}
+
+double FurtherQuantities::hours_between(float from, float to, const SunAtAzimuth& sun, std::size_t azimuth,
+                                        const ProfiledPacket& packet, std::size_t lane) const {
+  const SkyProfile& profile = packet.profile;
+  const NormalParts normal = normal_parts(packet.receivers, lane, azimuths_, azimuth);
+  const SlopesInFront front = slopes_in_front_of(normal.outward, normal.upward);
+  from = std::max(from, front.from);
+  to = std::min(to, front.to);
+  double hours = sun.hours_between(std::max(from, profile.sky_from[azimuth][lane]), to);
+  if (!profile.gap_share.empty())
+    hours += static_cast<double>(profile.gap_share[azimuth][lane]) *
+             sun.hours_between(std::max(from, profile.gap_from[azimuth][lane]), std::min(to, profile.gap_to[azimuth][lane]));
+  return hours;
+}
+
+std::array<double, packet_lanes> FurtherQuantities::hours_of(const std::vector<SunAtAzimuth>& sun,
                                                              const ProfiledPacket& packet) const {
-  const auto& [profile, receivers, sky, rows] = packet;
   std::array<double, packet_lanes> hours{};
-  for (std::size_t k = 0; k < azimuths_.size(); ++k) {
-    const SunAtAzimuth& sun = sun_at_azimuths[k];
-    if (sun.slopes.empty()) continue;
-    const auto hours_above = [&](float slope) {
-      const auto first = std::upper_bound(sun.slopes.begin(), sun.slopes.end(), slope) - sun.slopes.begin();
-      return sun.hours[static_cast<std::size_t>(first)];
-    };
-    const auto hours_between = [&](float from, float to) { return from < to ? hours_above(from) - hours_above(to) : 0.0; };
-    for (std::size_t l = 0; l < receivers.count; ++l) {
-      const NormalParts normal = normal_parts(receivers, l, azimuths_, k);
-      const SlopesInFront front = slopes_in_front_of(normal.outward, normal.upward);
-      hours[l] += hours_between(std::max(profile.sky_from[k][l], front.from), front.to);
-      if (profile.gap_share.empty()) continue;
-      hours[l] += static_cast<double>(profile.gap_share[k][l]) *
-                  hours_between(std::max(profile.gap_from[k][l], front.from), std::min(profile.gap_to[k][l], front.to));
-    }
-  }
+  for (std::size_t k = 0; k < azimuths_.size(); ++k)
+    for (std::size_t l = 0; l < packet.receivers.count && !sun[k].slopes.empty(); ++l)
+      hours[l] += hours_between(0.0F, zenith_slope, sun[k], k, packet, l);
   return hours;
 }
 
@@ -204,61 +246,96 @@ void FurtherQuantities::add_sunlit(const ProfiledPacket& packet, QuantityColumns
   columns.add(column);
 }
 
-void FurtherQuantities::add_shade(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const std::array<double, packet_lanes> hours = hours_of(sun_of_light_, packet);
-  Lanes column;
+FurtherQuantities::Lanes FurtherQuantities::shade_of(const SunOfTime& time, const ProfiledPacket& packet) const {
+  std::array<double, packet_lanes> hours = hours_of(time.at_azimuths, packet);
+  for (const DimmedSlopes& d : packet.dimmed)
+    if (const SunAtAzimuth& sun = time.at_azimuths[d.azimuth]; !sun.slopes.empty())
+      hours[d.lane] -= static_cast<double>(d.lost) * hours_between(d.low, d.high, sun, d.azimuth, packet, d.lane);
+  Lanes shade;
   for (std::size_t l = 0; l < packet_lanes; ++l)
-    column[l] = hours_of_light_ > 0.0 ? static_cast<float>(std::clamp(1.0 - hours[l] / hours_of_light_, 0.0, 1.0))
-                                      : std::numeric_limits<float>::quiet_NaN();
-  columns.add(column);
+    shade[l] = time.hours > 0.0 ? static_cast<float>(std::clamp(1.0 - hours[l] / time.hours, 0.0, 1.0))
+                                : std::numeric_limits<float>::quiet_NaN();
+  return shade;
+}
+
+void FurtherQuantities::add_shade(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  columns.add(shade_of(sun_of_light_, packet));
+  for (const SunOfTime& step : sun_of_steps_) columns.add(shade_of(step, packet));
 }
 
 void FurtherQuantities::find_light(const ProfiledPacket& packet) const {
   packet.rows.light.assign(packet_lanes * light_->layers(), 0.0F);
+  packet.rows.lost.assign(packet_lanes * light_->layers(), 0.0F);
+  packet.rows.seen_share.resize(azimuths_.size());
   LightOfColumn column(*light_, azimuths_, packet);
   for (std::size_t k = 0; k < azimuths_.size(); ++k) column.add_to(k, packet.rows.light.data());
+  for (const DimmedSlopes& dimmed : packet.dimmed) column.add_lost(dimmed, packet.rows.lost.data());
 }
 
-FurtherQuantities::LightParts FurtherQuantities::light_parts(const ProfiledPacket& packet, std::size_t direct) const {
-  const std::size_t layers = light_->layers(), diffuse = direct + 1;
-  const auto level = light_->on_level(), upright = light_->on_upright();
-  const auto ground = static_cast<float>(quantities_.light ? quantities_.light->ground_albedo : 0.0),
-             facade = static_cast<float>(quantities_.light ? quantities_.light->facade_albedo : 0.0);
+FurtherQuantities::Lanes FurtherQuantities::LightParts::sum() const {
+  Lanes sum;
+  for (std::size_t l = 0; l < packet_lanes; ++l) sum[l] = direct[l] + diffuse[l] + reflected[l];
+  return sum;
+}
+
+FurtherQuantities::LightParts FurtherQuantities::light_parts(const ProfiledPacket& packet) const {
+  constexpr auto direct = static_cast<std::size_t>(LightLayer::direct), diffuse = static_cast<std::size_t>(LightLayer::diffuse),
+                 uniform = static_cast<std::size_t>(LightLayer::uniform);
+  const float on_level = light_->on_level()[diffuse];
   LightParts parts{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
-    const float* const sums = &packet.rows.light[l * layers];
-    const float svf = packet.sky.svf[l], up = packet.receivers.normal_z[l];
-    parts.direct[l] = std::max(0.0F, sums[direct]);
-    parts.diffuse[l] = with_the_sky_of(svf, sums[static_cast<std::size_t>(LightLayer::uniform)], sums[diffuse], level[diffuse]);
-    const float below = 0.5F * (1.0F - up), hidden = std::max(0.0F, 0.5F * (1.0F + up) - svf);
-    parts.reflected[l] =
-        ground * below * (level[direct] + level[diffuse]) + facade * hidden * (upright[direct] + upright[diffuse]);
+    const float* const sums = &packet.rows.light[l * light_->layers()];
+    const float* const lost = &packet.rows.lost[l * light_->layers()];
+    const float diffuse_sky = with_the_sky_of(packet.sky.svf[l], sums[uniform], sums[diffuse], on_level);
+    parts.beside_profile[l] = on_level > 0.0F ? (diffuse_sky - sums[diffuse]) / on_level : 0.0F;
+    parts.direct[l] = std::max(0.0F, sums[direct] - lost[direct]);
+    parts.diffuse[l] = std::max(0.0F, diffuse_sky - lost[diffuse]);
+    parts.reflected[l] = reflected(packet, l, direct) + reflected(packet, l, diffuse);
   }
   return parts;
 }
 
+float FurtherQuantities::reflected(const ProfiledPacket& packet, std::size_t lane, std::size_t layer) const {
+  const auto ground = static_cast<float>(quantities_.light ? quantities_.light->ground_albedo : 0.0),
+             facade = static_cast<float>(quantities_.light ? quantities_.light->facade_albedo : 0.0);
+  const float svf = packet.sky.svf[lane], up = packet.receivers.normal_z[lane];
+  const float below = 0.5F * (1.0F - up), hidden = std::max(0.0F, 0.5F * (1.0F + up) - svf);
+  return ground * below * light_->on_level()[layer] + facade * hidden * light_->on_upright()[layer];
+}
+
+FurtherQuantities::Lanes FurtherQuantities::total_light(const ProfiledPacket& packet, const LightParts& parts,
+                                                        std::size_t total) const {
+  const std::size_t layer = static_cast<std::size_t>(LightLayer::first_total) + total;
+  Lanes column{};
+  for (std::size_t l = 0; l < packet.receivers.count; ++l) {
+    const std::size_t place = l * light_->layers() + layer;
+    const float beside_profile = parts.beside_profile[l] * light_->diffuse_of_totals()[total];
+    column[l] = std::max(0.0F, packet.rows.light[place] + beside_profile - packet.rows.lost[place]) + reflected(packet, l, layer);
+  }
+  return column;
+}
+
 void FurtherQuantities::add_irradiation(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto sum_of = [](const LightParts& parts) {
-    Lanes sum;
-    for (std::size_t l = 0; l < packet_lanes; ++l) sum[l] = parts.direct[l] + parts.diffuse[l] + parts.reflected[l];
-    return sum;
-  };
-  const LightParts parts = light_parts(packet, static_cast<std::size_t>(LightLayer::direct));
-  columns.add(sum_of(parts));
+  const LightParts parts = light_parts(packet);
+  columns.add(parts.sum());
   columns.add(parts.direct);
   columns.add(parts.diffuse);
   columns.add(parts.reflected);
-  for (std::size_t n = 0; n < light_->months().size(); ++n)
-    columns.add(sum_of(light_parts(packet, static_cast<std::size_t>(LightLayer::first_month) + 2 * n)));
+  for (std::size_t n = 0; n < light_->months().size(); ++n) columns.add(total_light(packet, parts, n));
 }
 
 void FurtherQuantities::add_irradiance(const ProfiledPacket& packet, QuantityColumns& columns) const {
   constexpr double watts_in_kilowatt = 1000.0;
-  const LightParts parts = light_parts(packet, static_cast<std::size_t>(LightLayer::direct));
   const double mean = light_->hours() > 0.0 ? watts_in_kilowatt / light_->hours() : 0.0;
-  Lanes column;
-  for (std::size_t l = 0; l < packet_lanes; ++l)
-    column[l] = static_cast<float>(mean * static_cast<double>(parts.direct[l] + parts.diffuse[l] + parts.reflected[l]));
+  Lanes column = light_parts(packet).sum();
+  for (float& irradiance : column) irradiance = static_cast<float>(mean * static_cast<double>(irradiance));
+  columns.add(column);
+}
+
+void FurtherQuantities::add_illuminance(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  const double hours = light_->hours_of_illuminance();
+  Lanes column = total_light(packet, light_parts(packet), light_->months().size());
+  for (float& light : column) light = hours > 0.0 ? static_cast<float>(static_cast<double>(light) / hours) : 0.0F;
   columns.add(column);
 }
 
@@ -267,8 +344,9 @@ void FurtherQuantities::add_sky_component(const ProfiledPacket& packet, Quantity
   Lanes column{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
     const float* const sums = &packet.rows.light[l * layers];
-    column[l] = with_the_sky_of(packet.sky.svf[l], sums[static_cast<std::size_t>(LightLayer::uniform)],
-                                sums[static_cast<std::size_t>(LightLayer::overcast)], 1.0F);
+    const float sky = with_the_sky_of(packet.sky.svf[l], sums[static_cast<std::size_t>(LightLayer::uniform)],
+                                      sums[static_cast<std::size_t>(LightLayer::overcast)], 1.0F);
+    column[l] = std::max(0.0F, sky - packet.rows.lost[l * layers + static_cast<std::size_t>(LightLayer::overcast)]);
   }
   columns.add(column);
 }

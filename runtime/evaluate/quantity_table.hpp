@@ -24,6 +24,7 @@ enum class Quantity : std::uint8_t {
   shadow_patches,
   irradiation,
   irradiance,
+  illuminance,
   shade,
   sky_component,
   svf_total,

@@ -68,7 +68,7 @@ Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_t
       city(std::move(c)) {
   FARLOD_EXPECTS(!s.allowed_error || s.engine == Engine::exact || s.engine == Engine::near_only ||
                  !p.manifest().far_map.is_box());
-  if (further.canopy_columns().count == 0 || s.further.canopy.rule != CanopyRule::once || !p.has_crowns()) return;
+  if (!further.needs_crowns() || s.further.canopy.rule != CanopyRule::once || !p.has_crowns()) return;
   const package::CrownCellRecord& first = p.crowns().cells().front();
   canopy_lattice_ = CanopyLattice::of(p.grid(), {first.i, first.j}, p.crowns().crowns_of(first).front());
 }

@@ -28,6 +28,8 @@ class TracedMethod : public SkyMethod {
     if (!evaluation_.further.needs_profiles()) return;
     FurtherAnswers further(evaluation_.further, cell, answers);
     if (evaluation_.further.needs_near_sky()) further.set_near_sky(trace_near_sky(cell));
+    if (evaluation_.further.needs_dimmed_sky() && evaluation_.package.has_crowns())
+      further.draw_canopies(evaluation_.package, {}, nullptr, evaluation_.stop);
     for_each_group(cell.receivers, packet_order(cell.receivers, evaluation_.stop),
                    [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
                      further.trace(packets, scene, evaluation_.stop);

@@ -50,7 +50,7 @@ bool traces_whole_city(const ResolvedSettings& settings) {
 
 bool uses_crowns(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const Quantities& further = settings.sky.further;
-  return manifest.canopy.has_value() && (further.any_of_canopies() || further.shadow_patches);
+  return manifest.canopy.has_value() && (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.shadow_patches);
 }
 
 double bytes_of_canopies(const package::Manifest& manifest, const ResolvedSettings& settings) {
@@ -92,7 +92,7 @@ double crowns_of(const package::Manifest& manifest) { return static_cast<double>
 double bytes_of_canopy_pixels(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const Quantities& further = settings.sky.further;
   const auto is_pixel = static_cast<std::size_t>(CrownShape::prism);
-  if (!further.any_of_canopies() || further.canopy.rule != CanopyRule::once) return 0.0;
+  if (!(further.any_of_canopies() || further.any_dimmed_by_crowns()) || further.canopy.rule != CanopyRule::once) return 0.0;
   if (manifest.canopy->crowns_of_shape[is_pixel] != manifest.canopy->crowns()) return 0.0;
   const double pixels = std::min(CanopyField::most_pixels, CanopyField::most_pixels_per_crown * crowns_of(manifest));
   return canopy_pixel_bytes * pixels + static_cast<double>(settings.sky.azimuths) * canopy_step_bytes * std::sqrt(pixels);

@@ -56,7 +56,8 @@ void check(const Quantities& q, SkyWeight weight) {
   for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) check(sun);
   if (q.light) check(*q.light);
   if (q.any_of_light() && !q.light)
-    throw InvalidArgument("further.irradiation, irradiance and shade are those of a period: give its light (further.light)");
+    throw InvalidArgument(
+        "further.irradiation, irradiance, illuminance and shade are those of a period: give its light (further.light)");
   check(q.canopy);
   if (weight == SkyWeight::cosine) return;
   for (const QuantityWord& asked : words_of(q))

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
-#include "radiation/perez_sky.hpp"
-#include "radiation/sky_grid.hpp"
 #include "scene/ray_scenes.hpp"
 #include "tests/analytic/packed_around.hpp"
+#include "tests/scenes/light_by_rays.hpp"
 
 // A year of hours among buildings, hour by hour and ray by ray: the judge of one distribution for all of them.
 
@@ -64,54 +63,6 @@ Light year_of_light() {
   return light;
 }
 
-struct RayOfLight {
-  Point3d direction_city;
-  std::vector<double> of_month;  ///< kWh/m² on a plane that faces it
-};
-
-/// Spherical Fibonacci directions, with the sky's light of all hours, and the sun's positions.
-std::vector<RayOfLight> rays_of_sky(const Light& light, std::size_t count) {
-  std::vector<RayOfLight> rays;
-  for (std::size_t n = 0; n < count; ++n) {
-    const double up = (static_cast<double>(n) + 0.5) / static_cast<double>(count), level = std::sqrt(1.0 - up * up);
-    const double turn = 2.0 * pi * std::fmod(static_cast<double>(n) * (2.0 - std::numbers::phi), 1.0);
-    rays.push_back({{level * std::sin(turn), level * std::cos(turn), up}, std::vector<double>(12)});
-  }
-  std::vector<double> relative(count);
-  for (const LightInterval& interval : light.intervals) {
-    const SunPosition sun = *mean_sun(interval);
-    // Means are of all of the hour
-    const double share = interval.hours / sun.hours;
-    const PerezSky sky(
-        sky_state(Angle::degrees(90.0) - sun.elevation,
-                  {share * interval.diffuse_w_m2, share * interval.direct_normal_w_m2, interval.extraterrestrial_w_m2}));
-    const Point3d to_sun{cos(sun.elevation) * sin(sun.azimuth), cos(sun.elevation) * cos(sun.azimuth), sin(sun.elevation)};
-    double on_level = 0.0;
-    for (std::size_t n = 0; n < count; ++n) {
-      const Point3d& d = rays[n].direction_city;
-      relative[n] =
-          sky.radiance(Angle::radians(std::acos(d.z)), Angle::radians(std::acos(std::clamp(dot(d, to_sun), -1.0, 1.0))));
-      on_level += relative[n] * d.z;
-    }
-    const double scale = energy_kwh_m2(interval.diffuse_w_m2, interval.hours) / on_level;
-    for (std::size_t n = 0; n < count; ++n) rays[n].of_month[interval.month - 1] += scale * relative[n];
-  }
-  return rays;
-}
-
-std::vector<RayOfLight> rays_of_sun(const Light& light) {
-  std::vector<RayOfLight> rays;
-  for (const LightInterval& interval : light.intervals)
-    for (const SunPosition& sun : interval.sun) {
-      RayOfLight ray{{cos(sun.elevation) * sin(sun.azimuth), cos(sun.elevation) * cos(sun.azimuth), sin(sun.elevation)},
-                     std::vector<double>(12)};
-      ray.of_month[interval.month - 1] =
-          energy_kwh_m2(interval.direct_normal_w_m2, interval.hours) / static_cast<double>(interval.sun.size());
-      rays.push_back(std::move(ray));
-    }
-  return rays;
-}
-
 std::vector<Point3d> normals_of_receivers() {
   return {{0, 0, 1},  {0, 0, 1},
           {0, 0, 1},  {0, 0, 1},
@@ -123,44 +74,48 @@ std::vector<Point3d> normals_of_receivers() {
           {0, 0, 1},  {0, 0, 1}};
 }
 
-/// What the sun, seen past an edge between two azimuths, may add or lack in a month.
-constexpr double of_edges_kwh_m2 = 0.1;
+/// What the sun, seen past an edge between two azimuths, may add or lack in a month; crowns have more edges.
+constexpr double of_edges_kwh_m2 = 0.1, of_crowns_kwh_m2 = 0.3;
 
-TEST(IrradiationOfAYear, IsThatOfEachHourAndRay) {
-  const Angle bearing = Angle::degrees(20.0);
-  const PackedAround packed(bearing, add_town);
-  const Light light = year_of_light();
-  const Quantities quantities{.light = light, .irradiation = true};
-  const std::vector<RayOfLight> sky = rays_of_sky(light, 10000), sun = rays_of_sun(light);
-  const WholeCity city(packed.package());
-  const CellReceivers receivers = packed.receivers_on_square(normals_of_receivers());
+/// The year of each receiver, and its months, are those of rays but for `year_error` and `month_error` of them.
+void expect_the_light_of_rays(const PackageReader& package, Engine engine, const Quantities& quantities,
+                              const CellReceivers& receivers, const scenes::LightByRays& judge, const std::string& which) {
+  const WholeCityOnDemand city(package, {});
   const std::size_t columns = columns_of(quantities).size();
   std::vector<float> svf(receivers.receivers.size()), values(svf.size() * columns);
-  SkySettings settings{.engine = Engine::automatic, .further = quantities};
-  SkyEvaluator(packed.package(), settings).evaluate(receivers, SkyAnswers(svf, {}, {}, values));
-  const GridRotation& rotation = packed.package().grid().rotation;
+  const SkySettings settings{.engine = engine, .further = quantities};
+  SkyEvaluator(package, settings).evaluate(receivers, SkyAnswers(svf, {}, {}, values));
   for (const Receiver& r : receivers.receivers) {
-    const Point3f origin = city.scene_from_cell(r.p_cell, {0, 0});
-    const Point3d normal{r.normal.x, r.normal.y, r.normal.z};
-    std::vector<double> months(12);
-    double year = 0.0;
-    for (const std::vector<RayOfLight>* rays : {&sky, &sun})
-      for (const RayOfLight& ray : *rays) {
-        const Point3d direction = rotation.grid_from_city(ray.direction_city);
-        const double cosine = dot(direction, normal);
-        if (cosine <= 0.0 || city.occluder().blocks({origin,
-                                                     {static_cast<float>(direction.x), static_cast<float>(direction.y),
-                                                      static_cast<float>(direction.z)},
-                                                     1e-3F}))
-          continue;
-        for (std::size_t m = 0; m < months.size(); ++m) months[m] += cosine * ray.of_month[m];
-      }
-    for (const double month : months) year += month;
+    const scenes::LightByRays::Months months =
+        judge.on(city.city().scene_from_cell(r.p_cell, {0, 0}), {r.normal.x, r.normal.y, r.normal.z}, city.city().occluder(),
+                 package.has_crowns() ? &city.crowns(quantities.canopy) : nullptr);
     const float* const got = &values[r.index * columns];
-    EXPECT_NEAR(got[0], year, 0.005 * year) << "receiver " << r.index << ", svf " << svf[r.index];
+    const double year = scenes::year_of(months);
+    EXPECT_NEAR(got[0], year, 0.005 * year) << which << ", receiver " << r.index << ", svf " << svf[r.index];
     for (std::size_t m = 0; m < months.size(); ++m)
-      EXPECT_NEAR(got[4 + m], months[m], 0.01 * months[m] + of_edges_kwh_m2) << "receiver " << r.index << ", month " << m + 1;
+      EXPECT_NEAR(got[4 + m], months[m], 0.01 * months[m] + (package.has_crowns() ? of_crowns_kwh_m2 : of_edges_kwh_m2))
+          << which << ", receiver " << r.index << ", month " << m + 1;
   }
+}
+
+TEST(IrradiationOfAYear, IsThatOfEachHourAndRay) {
+  const PackedAround packed(Angle::degrees(20.0), add_town);
+  const Light light = year_of_light();
+  const scenes::LightByRays judge(light, 10000, packed.package().grid().rotation);
+  expect_the_light_of_rays(packed.package(), Engine::automatic, {.light = light, .irradiation = true},
+                           packed.receivers_on_square(normals_of_receivers()), judge, "without crowns");
+}
+
+TEST(IrradiationOfAYear, ThroughCrownsIsThatOfEachHourAndRay) {
+  PackedAround packed(Angle::degrees(20.0), add_town);
+  packed.plant(scenes::random_crowns(packed.package(), 60));
+  ASSERT_TRUE(packed.package().has_crowns());
+  const Light light = year_of_light();
+  const scenes::LightByRays judge(light, 10000, packed.package().grid().rotation);
+  for (const auto& [word, rule] : canopy_rule_words)
+    for (const Engine engine : {Engine::automatic, Engine::exact})
+      expect_the_light_of_rays(packed.package(), engine, {.light = light, .irradiation = true, .canopy = {.rule = rule}},
+                               packed.receivers_on_square(normals_of_receivers()), judge, std::string(word));
 }
 
 }  // namespace

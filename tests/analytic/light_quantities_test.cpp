@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "radiation/perez_sky.hpp"
@@ -241,6 +244,72 @@ TEST(SkyComponent, OfAWallInTheOpenIsThatOfTheCode) {
     EXPECT_NEAR(open.columns(engine, quantities).at("sky_component"), 1.0, 1e-5);
     EXPECT_NEAR(open.columns(engine, quantities, {1.0, 0.0, 0.0}).at("sky_component"), 3.0 / 14.0 + 4.0 / (7.0 * pi),
                 tolerance_of_light);
+  }
+}
+
+/// A round crown 10 m to the south, from 24° to 37° of elevation, seen from the middle.
+void plant_to_the_south(PackedAround& packed) {
+  const package::Manifest& manifest = packed.package().manifest();
+  CrownsOfCity crowns(manifest.grid, manifest.height_origin_m);
+  const Point2d receiver_grid{0.5 * packed_cell_edge_m, 0.5 * packed_cell_edge_m};
+  crowns.add(receiver_grid + manifest.grid.rotation.grid_from_city(Point2d{0.0, -10.0}), packed_eye_m + 4.5, packed_eye_m + 7.5,
+             1.5, CrownShape::spheroid, Foliage::unknown, 0.0);
+  packed.plant(std::move(crowns));
+}
+
+TEST(Irradiation, OfTheSunBehindACrownIsWhatPassesIt) {
+  PackedAround packed(Angle::degrees(20.0), [](scenes::SceneBuilder&) {});
+  plant_to_the_south(packed);
+  for (const Engine engine : engines_of_light)
+    for (const auto& [azimuth_deg, elevation_deg, passes] : {std::tuple(180.0, 31.0, 0.03), std::tuple(180.0, 60.0, 1.0),
+                                                             std::tuple(180.0, 10.0, 1.0), std::tuple(0.0, 31.0, 1.0)}) {
+      Quantities quantities = irradiation_of(hour_of(azimuth_deg, elevation_deg, 1000, 0));
+      quantities.shade = true;
+      const auto got = packed.columns(engine, quantities);
+      EXPECT_NEAR(got.at("irradiation_direct"), passes * std::sin(elevation_deg * pi / 180.0), tolerance_of_light);
+      EXPECT_NEAR(got.at("shade"), 1.0 - passes, 1e-6);
+    }
+}
+
+TEST(Irradiation, OfAnIsotropicSkyBehindCrownsIsItsShareThatPasses) {
+  PackedAround packed(Angle::degrees(20.0), [](scenes::SceneBuilder&) {});
+  plant_to_the_south(packed);
+  for (const auto& [word, rule] : canopy_rule_words)
+    for (const double tilt_deg : {0.0, 50.0}) {
+      Quantities quantities = irradiation_of(hour_of(180, 40, 0, 1000));
+      quantities.svf_total = true;
+      quantities.canopy.rule = rule;
+      const auto got = packed.columns(Engine::automatic, quantities, tilted_normal(tilt_deg, 170.0));
+      EXPECT_LT(got.at("svf_total"), got.at("svf") - 0.005);
+      EXPECT_NEAR(got.at("irradiation_diffuse"), got.at("svf_total"), 2e-4) << word;
+    }
+}
+
+TEST(Illuminance, IsTheLightOfHoursThatKnowIt) {
+  const PackedAround open(Angle::degrees(20.0), [](scenes::SceneBuilder&) {});
+  LightInterval bright = hour_of(180, 40, 500, 200), unknown = bright;
+  bright.direct_normal_lux = 50'000.0;
+  bright.diffuse_lux = 24'000.0;
+  const Quantities quantities{.light = Light{{bright, unknown}, SkyModel::isotropic, 0.0, 0.0}, .illuminance = true};
+  for (const Engine engine : engines_of_light)
+    EXPECT_NEAR(open.columns(engine, quantities).at("illuminance"), 50'000.0 * std::sin(40.0 * pi / 180.0) + 24'000.0,
+                56'000.0 * tolerance_of_light);
+}
+
+TEST(Shade, ByStepsIsThatOfEachInterval) {
+  const Street street;
+  const PackedAround packed({}, street.walls());
+  LightInterval morning = hour_of(90, 50, 500, 0), noon = hour_of(180, 50, 500, 0), night;
+  morning.begin = std::chrono::local_days(std::chrono::year(2026) / 6 / 21) + std::chrono::hours(9);
+  noon.begin = morning.begin + std::chrono::hours(3);
+  Light light{{night, morning, noon}, SkyModel::isotropic, 0.0, 0.0};
+  light.by_step = true;
+  for (const Engine engine : engines_of_light) {
+    const auto got = packed.columns(engine, {.light = light, .shade = true});
+    EXPECT_EQ(got.size(), 4U);
+    EXPECT_EQ(got.at("shade"), 0.5);
+    EXPECT_EQ(got.at("shade_20260621T0900"), 1.0);
+    EXPECT_EQ(got.at("shade_20260621T1200"), 0.0);
   }
 }
 
