@@ -33,12 +33,12 @@ struct Change {
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
       evaluation;
   [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, light, irradiation, irradiance,
-                          shade, sky_component, svf_total, svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy,
-                          shadow_patches] = further;
+                          illuminance, shade, sky_component, svf_total, svf_total_bounds, svfaveg, directional_vegetation,
+                          sky_shares, canopy, shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
   // The intervals follow from the request, the package and the file
-  [[maybe_unused]] auto& [intervals, sky_model, ground_albedo, facade_albedo, by_month] = *light;
+  [[maybe_unused]] auto& [intervals, sky_model, ground_albedo, facade_albedo, by_month, by_step] = *light;
   [[maybe_unused]] auto& [weather_file, period, light_step, linke_turbidity] = *light_request;
 }
 

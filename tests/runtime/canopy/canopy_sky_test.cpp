@@ -244,7 +244,7 @@ TEST(CanopySky, TheSkyBehindCrownsIsTheMeanOverAzimuths) {
       const ReceiverPacket receivers = some_receivers(s.random, looks);
       const SkyProfile profile = some_profile(s.random, s.azimuths, true);
       SkyProfile::Rows behind(s.azimuths.size(), PacketHorizon::Row{{9.0F}});
-      const CanopyShares shares = s.sky.evaluate(profile, receivers, crowns, behind);
+      const CanopyShares shares = s.sky.evaluate(profile, receivers, crowns, {behind});
       EXPECT_EQ(shares.behind, s.sky.evaluate(profile, receivers, crowns).behind);
       for (std::size_t l = 0; l < lanes; ++l) {
         double sum = 0.0;
@@ -258,7 +258,7 @@ TEST(CanopySky, TheSkyBehindCrownsIsTheMeanOverAzimuths) {
 TEST(CanopySky, WithoutCrownsInSightNothingIsBehindThem) {
   Stage s;
   SkyProfile::Rows behind(s.azimuths.size(), PacketHorizon::Row{{9.0F}});
-  (void)s.sky.evaluate(SkyProfile(s.azimuths), receiver_at_origin(), CrownBatches({}, {}), behind);
+  (void)s.sky.evaluate(SkyProfile(s.azimuths), receiver_at_origin(), CrownBatches({}, {}), {behind});
   for (const PacketHorizon::Row& row : behind) EXPECT_EQ(row, PacketHorizon::Row{});
 }
 

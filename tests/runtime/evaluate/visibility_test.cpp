@@ -305,11 +305,11 @@ TEST(CanopyByPlace, DoesNotDependOnTheRestOfThePacket) {
   const ReceiverPacket receivers = receivers_around({-11.0, 3.0}, 7.0F);
   SkyProfile::Rows behind(azimuths.size()), behind_alone(azimuths.size());
   const SkyProfile open(azimuths);
-  const CanopyShares together = sky.evaluate(open, receivers, behind);
+  const CanopyShares together = sky.evaluate(open, receivers, {behind});
   for (std::size_t l = 0; l < lanes; ++l) {
     ReceiverPacket alone;
     alone.add({0, {receivers.x[l], receivers.y[l], receivers.z[l]}});
-    const CanopyShares of_one = sky.evaluate(open, alone, behind_alone);
+    const CanopyShares of_one = sky.evaluate(open, alone, {behind_alone});
     EXPECT_EQ(together.lost[l], of_one.lost[0]);
     EXPECT_EQ(together.behind[l], of_one.behind[0]);
     for (std::size_t k = 0; k < azimuths.size(); ++k) EXPECT_EQ(behind[k][l], behind_alone[k][0]);
