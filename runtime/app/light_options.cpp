@@ -71,6 +71,15 @@ void require_fitting(const RawLight& raw, const Quantities& q) {
   if (raw.by == "step" && !q.shade) throw CLI::ValidationError("--by", "step goes with --quantity shade");
 }
 
+void add_times(CLI::App& app, RawLight& raw) {
+  app.add_option("--step", raw.step_minutes, "Minutes from one position of the sun to the next, and of a clear sky (default: 5)")
+      ->check(between(1, 60))
+      ->group(group_of_light);
+  app.add_option("--by", raw.by, "month: irradiation of each month, too; step: shade of each --step, or row of the weather")
+      ->check(CLI::IsMember({"month", "step"}))
+      ->group(group_of_light);
+}
+
 }  // namespace
 
 void add_light_options(CLI::App& app, RawLight& raw) {
@@ -82,9 +91,6 @@ void add_light_options(CLI::App& app, RawLight& raw) {
       ->group(group_of_light);
   app.add_option("--period", raw.period,
                  "Part of the weather, as 2026-06-21, 2026-06/08, 2026-06-21T10:00/16:00, or of any year, as 06-21")
-      ->group(group_of_light);
-  app.add_option("--step", raw.step_minutes, "Minutes from one position of the sun to the next, and of a clear sky (default: 5)")
-      ->check(between(1, 60))
       ->group(group_of_light);
   app.add_option("--linke", raw.linke_turbidity,
                  "Linke turbidity of a clear sky: 2 in mountains, 3 in a clear country, 4 to 5 in cities (default: 3)")
@@ -98,9 +104,7 @@ void add_light_options(CLI::App& app, RawLight& raw) {
                  "Shares that the ground and facades reflect, as 0.2,0.2 (default): one bounce, by the share of the view that is "
                  "not sky")
       ->group(group_of_light);
-  app.add_option("--by", raw.by, "month: irradiation of each month, too; step: shade of each --step, or row of the weather")
-      ->check(CLI::IsMember({"month", "step"}))
-      ->group(group_of_light);
+  add_times(app, raw);
 }
 
 std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quantities) {

@@ -36,7 +36,7 @@ class CanopyOnPixels {
     std::span<PacketHorizon::Lanes> behind;  ///< of each packet: the sky that is free of solid things and behind any crown
     std::span<PacketHorizon::Lanes> hidden;  ///< solid things behind crowns
     std::span<PacketHorizon::Row> behind_of_azimuths, hidden_of_azimuths;  ///< packet by packet, or empty
-    /// Of each packet, or empty: takes slopes behind crowns, with 1 as the share that is lost.
+    /// The slopes behind crowns of each packet, with 1 as the share that is lost. Or empty
     std::span<DimmedSky> dimmed = {};
   };
 

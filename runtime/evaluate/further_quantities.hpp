@@ -142,7 +142,7 @@ class FurtherQuantities {
     [[nodiscard]] Lanes sum() const;
   };
   [[nodiscard]] LightParts light_parts(const ProfiledPacket& packet) const;
-  /// Of all light of a layer.
+  /// What a receiver gets reflected of all light of a layer.
   [[nodiscard]] float reflected(const ProfiledPacket& packet, std::size_t lane, std::size_t layer) const;
   /// All that each receiver gets of one of the totals of the table. Those of all months add up to the period.
   [[nodiscard]] Lanes total_light(const ProfiledPacket& packet, const LightParts& parts, std::size_t total) const;

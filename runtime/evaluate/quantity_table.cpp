@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <numeric>
 #include <string>
@@ -120,24 +119,12 @@ void describe_illuminance(const Quantities&, Columns& columns) {
   columns.push_back({"illuminance", "lx", "mean of the light to the eye in the period, by day and by night"});
 }
 
-/// `20260621T1000`, as ISO 8601 has it without marks that names of columns may not have.
-std::string basic_text_of(std::chrono::local_seconds time) {
-  const auto midnight = std::chrono::floor<std::chrono::days>(time);
-  const std::chrono::year_month_day day(midnight);
-  const auto minutes = std::chrono::floor<std::chrono::minutes>(time - midnight).count();
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%04d%02u%02uT%02d%02d", static_cast<int>(day.year()),
-                static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()), static_cast<int>(minutes / 60),
-                static_cast<int>(minutes % 60));
-  return text.data();
-}
-
 void describe_shade(const Quantities& q, Columns& columns) {
   columns.push_back({"shade", "1", "share of the period's hours of sun in which none shines on the receiver"});
   if (!q.light || !q.light->by_step) return;
   for (const LightInterval& interval : q.light->intervals)
     if (has_sun(interval))
-      columns.push_back({"shade_" + basic_text_of(interval.begin), "1", "shade from " + basic_text_of(interval.begin) + " on"});
+      columns.push_back({"shade_" + begin_text_of(interval), "1", "shade from " + begin_text_of(interval) + " on"});
 }
 
 void describe_sky_component(const Quantities&, Columns& columns) {

@@ -4,7 +4,9 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -226,6 +228,17 @@ Layers layers_of(const Light& light, std::span<const double> turns, std::span<co
 }
 
 }  // namespace
+
+std::string begin_text_of(const LightInterval& interval) {
+  const auto midnight = std::chrono::floor<std::chrono::days>(interval.begin);
+  const std::chrono::year_month_day day(midnight);
+  const auto minutes = std::chrono::floor<std::chrono::minutes>(interval.begin - midnight).count();
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%04d%02u%02uT%02d%02d", static_cast<int>(day.year()),
+                static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()), static_cast<int>(minutes / 60),
+                static_cast<int>(minutes % 60));
+  return text.data();
+}
 
 std::vector<unsigned> months_by_name(const Light& light) {
   std::vector<unsigned> months;

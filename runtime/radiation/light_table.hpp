@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "farlod/light.hpp"
@@ -21,6 +22,9 @@ enum class LightLayer : std::size_t {
   uniform,   ///< a sky of the same radiance everywhere: 1 on a level plane
   first_total
 };
+
+/// When an interval begins, as ISO 8601 has it without marks that names of columns may not have: `20260621T1000`.
+[[nodiscard]] std::string begin_text_of(const LightInterval& interval);
 
 /// The months of a period that irradiation has columns for, ascending: none unless they are asked for.
 [[nodiscard]] std::vector<unsigned> months_by_name(const Light& light);
