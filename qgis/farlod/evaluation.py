@@ -27,7 +27,8 @@ from .layer_files import save_source
 from .staging import Staging
 
 QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "shadow_patches",
-              "irradiation", "irradiance", "shade", "sky_component", "svf_total", "svfaveg", "directional_vegetation", "shares"]
+              "irradiation", "irradiance", "illuminance", "shade", "sky_component", "svf_total", "svfaveg", "directional_vegetation",
+              "shares"]
 QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
     "near and far geometry hide; horizon: its elevations; horizon_distance: and how far away it is; sky_patches: share seen of "
