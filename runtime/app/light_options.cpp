@@ -85,8 +85,7 @@ void add_times(CLI::App& app, RawLight& raw) {
 void add_light_options(CLI::App& app, RawLight& raw) {
   app.add_option("--weather", raw.weather_file,
                  "Weather for irradiation, irradiance, illuminance and shade: EPW, a TMY of PVGIS or NREL, or a CSV of times and "
-                 "global, direct "
-                 "and diffuse irradiance. Without it, the sky of --period is clear")
+                 "global, direct and diffuse irradiance. Without it, the sky of --period is clear")
       ->type_name(file_value)
       ->group(group_of_light);
   app.add_option("--period", raw.period,
