@@ -33,8 +33,8 @@ QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
     "near and far geometry hide; horizon: its elevations; horizon_distance: and how far away it is; sky_patches: share seen of "
     "each patch of the sky; sunlit: hours of sunshine, which need a day or a year; shadow_patches: what hides each of the 153 of "
-    "UMEP, as bits; irradiation, in kWh/m², irradiance, in W/m², and shade: those of a period; sky_component: light of an "
-    "overcast sky; with the trees of a package svf_total (and "
+    "UMEP, as bits; irradiation, in kWh/m², irradiance, in W/m², illuminance, in lx, and shade: those of a period; "
+    "sky_component: light of an overcast sky; with the trees of a package svf_total (and "
     "svfveg), svfaveg, directional_vegetation: both of the halves of the sky as UMEP has them; and the shares of sky, "
     "vegetation and building."
 )
@@ -70,7 +70,7 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         sun = QgsProcessingParameterString("SUN", "Day or year of the sunshine", None, False, True)
         self.add(sun, "2026-06-21, or 2026. Adds the hours of sunshine, were the sky clear.")
         weather = QgsProcessingParameterFile("WEATHER", "Weather (EPW, TMY or CSV)", optional=True)
-        self.add(weather, "For irradiation, irradiance and shade. Without it, the sky is clear in the period.")
+        self.add(weather, "For irradiation, irradiance, illuminance and shade. Without it, the sky is clear in the period.")
         period = QgsProcessingParameterString("PERIOD", "Period", None, False, True)
         self.add(period, "2026-06, 2026-06-21T10:00/16:00, or of any year, 06-21. Default: all of the weather.")
         by_month = QgsProcessingParameterBoolean("BY_MONTH", "Irradiation of each month, too", False)
