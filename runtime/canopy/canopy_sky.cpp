@@ -31,7 +31,7 @@ class BehindOfPacket {
  public:
   BehindOfPacket(const CanopyDetails& details, const ReceiverPacket& receivers, float share)
       : behind_(details.behind_of_azimuths.empty() ? nullptr : details.behind_of_azimuths.front().data()) {
-    if (!details.dimmed.empty()) keep_.emplace(details.dimmed.front(), share, receivers.lanes_in_use());
+    if (!details.dimmed.empty()) keep_.emplace(KeepDimmed{details.dimmed.front(), share, receivers.lanes_in_use()});
   }
   [[nodiscard]] BehindRows rows() { return {behind_, keep_ ? keep_->taker() : DimmedTaker()}; }
 
