@@ -143,36 +143,17 @@ Amounts in_lux_hours(const LightInterval& interval) {
   return {interval.direct_normal_lux.value_or(0.0) * interval.hours, interval.diffuse_lux.value_or(0.0) * interval.hours};
 }
 
-/// The light of some intervals: of their sun, and of their skies.
-struct SunAndSky {
-  Parts direct;
-  SkyGrid sky;
-};
-SunAndSky sun_and_sky_of(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure, std::size_t parts,
-                         const SortedTurns& turns) {
-  SunAndSky light{Parts(parts), SkyGrid()};
-  for (const LightInterval* const interval : intervals) {
-    const Amounts amounts = measure(*interval);
-    light.sky.add(*interval, model, amounts.diffuse);
-    add_direct(*interval, amounts.direct_normal, turns, light.direct);
-  }
-  return light;
-}
-
-/// The same by several threads: so many pieces are added up in their order, whoever made them.
-SunAndSky sun_and_sky_in_pieces(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure,
-                                std::size_t parts, const SortedTurns& turns) {
+/// The skies of some intervals by several threads: so many pieces are added up in their order, whoever made them.
+SkyGrid sky_of(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure) {
   constexpr std::size_t pieces = 16;
-  std::vector<SunAndSky> of_pieces(pieces);
+  std::vector<SkyGrid> of_pieces(pieces);
   oneapi::tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t n) {
     const std::size_t begin = n * intervals.size() / pieces, end = (n + 1) * intervals.size() / pieces;
-    of_pieces[n] = sun_and_sky_of(intervals.subspan(begin, end - begin), model, measure, parts, turns);
+    for (const LightInterval* const interval : intervals.subspan(begin, end - begin))
+      of_pieces[n].add(*interval, model, measure(*interval).diffuse);
   });
-  SunAndSky all = std::move(of_pieces.front());
-  for (const SunAndSky& piece : std::span(of_pieces).subspan(1)) {
-    add(piece.direct, all.direct);
-    all.sky.add(piece.sky);
-  }
+  SkyGrid all = std::move(of_pieces.front());
+  for (const SkyGrid& piece : std::span(of_pieces).subspan(1)) all.add(piece);
   return all;
 }
 
@@ -185,10 +166,13 @@ DirectAndDiffuse light_of(const Light& light, std::span<const double> turns, Mea
   for (const LightInterval& interval : light.intervals)
     if (wanted(interval)) intervals.push_back(&interval);
   const std::size_t size = turns.size() * LightTable::last_knot;
-  SunAndSky all = sun_and_sky_in_pieces(intervals, light.sky_model, measure, size, SortedTurns(turns));
-  DirectAndDiffuse result{std::move(all.direct), Parts(size)};
+  DirectAndDiffuse result{Parts(size), Parts(size)};
+  const SortedTurns sorted(turns);
+  for (const LightInterval* const interval : intervals)
+    add_direct(*interval, measure(*interval).direct_normal, sorted, result.direct);
+  const SkyGrid sky = sky_of(intervals, light.sky_model, measure);
   add_sky(
-      turns, all.sky.on_level(), [&](double turn, Angle at) { return all.sky.radiance(turn, at); }, result.diffuse);
+      turns, sky.on_level(), [&](double turn, Angle at) { return sky.radiance(turn, at); }, result.diffuse);
   return result;
 }
 
