@@ -41,7 +41,7 @@ constexpr std::ptrdiff_t most_steps = 288;
 void require_few_steps(const Light& light) {
   const auto steps = std::count_if(light.intervals.begin(), light.intervals.end(), has_sun);
   if (light.by_step && steps > most_steps)
-    throw LimitReached(
+    throw InputError(
         fmt::format("--by step would make {} columns of shade, more than {}: take a shorter --period, or a longer "
                     "--step of a clear sky.",
                     steps, most_steps));
