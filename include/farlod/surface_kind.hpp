@@ -18,7 +18,7 @@ enum class SurfaceKind : std::uint8_t {
   roof = 2,
   wall = 3,
   floor = 4,       ///< looks down: the ground slab of a building, the underside of a bridge
-  foundation = 5,  ///< of no file: what closes the gap between a building's lowest floor and the ground
+  foundation = 5,  ///< of no file: what closes the gap below a building's lowest floor, or a crack
 };
 inline constexpr std::array<Word<SurfaceKind>, 6> surface_kind_words{{{"unknown", SurfaceKind::unknown},
                                                                       {"ground", SurfaceKind::ground},

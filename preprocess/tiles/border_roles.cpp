@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -138,18 +137,33 @@ class OverhangEnds {
 };
 
 /// The lower borders at corners, each at the height of its upper end. Where one ends, the next one below it goes on.
-std::vector<HorizonSegment> lower_borders_at(std::vector<Segment3d> corners, const std::vector<UpperBorder>& borders) {
+/// They are taken out of the corners.
+std::vector<HorizonSegment> take_lower_borders(std::vector<LeaningCorner>& corners, const std::vector<UpperBorder>& borders) {
   constexpr AdjacentSlopes straight_up{AdjacentSlopes::straight_up, AdjacentSlopes::straight_up};
-  std::stable_sort(corners.begin(), corners.end(), [](const Segment3d& c, const Segment3d& d) { return c.a.z > d.a.z; });
+  std::stable_sort(corners.begin(), corners.end(),
+                   [](const LeaningCorner& c, const LeaningCorner& d) { return c.segment.a.z > d.segment.a.z; });
   const OverhangEnds ends(borders);
-  std::set<Point3d, decltype(&comes_first)> feet(&comes_first);
+  Places feet(&comes_first);
   std::vector<HorizonSegment> result;
-  for (const auto& [top, foot] : corners) {
-    if (!ends.overhang({top, foot}) && !feet.contains(top)) continue;
+  std::vector<LeaningCorner> rest;
+  for (const LeaningCorner& corner : corners) {
+    const auto& [top, foot] = corner.segment;
+    if (!ends.overhang(corner.segment) && !feet.contains(top)) {
+      rest.push_back(corner);
+      continue;
+    }
     feet.insert(foot);
     result.push_back({{top, {foot.x, foot.y, top.z}}, straight_up, EdgeRole::underside});
   }
+  corners = std::move(rest);
   return result;
+}
+
+Places ends_of_grounded(const std::vector<UpperBorder>& borders) {
+  std::vector<HorizonSegment> grounded;
+  for (const UpperBorder& border : borders)
+    if (border.segment.role == EdgeRole::grounded) grounded.push_back(border.segment);
+  return ends_of(grounded);
 }
 
 /// What a building's inside, and its walls, tell of its upper borders.
@@ -227,7 +241,8 @@ BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<
   if (building.only_cell) roles.leave_recesses_open();
   roles.find(result.upper);
   result.upper = without_those_below_grounded(result.upper);
-  result.corners = lower_borders_at(std::move(building.corners), result.upper);
+  result.corners = take_lower_borders(building.corners, result.upper);
+  result.closing = closing_below(std::move(building.corners), ends_of_grounded(result.upper), ground_height);
   const SortedSegments hiding = grounded_of(result.upper);
   for (const HorizonSegment& underside : undersides)
     for (const HorizonSegment& part : roles.outside_of_solid(underside)) add_seen_parts(part, hiding, result.undersides);

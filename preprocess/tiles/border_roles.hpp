@@ -24,6 +24,7 @@ struct BordersWithRoles {
   std::vector<HorizonSegment> undersides;
   /// Lower borders where walls that lean by some millimetres end at a corner. What touches them tells nothing.
   std::vector<HorizonSegment> corners;
+  std::vector<ClosingTriangle> closing;  ///< what closes the air below such corners of grounded borders
 };
 /// `undersides`: those of the building that are above the ground. It loses its walls, slabs and corners.
 [[nodiscard]] BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,

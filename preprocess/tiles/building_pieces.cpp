@@ -184,11 +184,9 @@ class BuildingCutter {
       const auto pieces = cut_edge_unless_whole(edge, result_.only_cell, grid_, height_origin_m_);
       result_.upper_pieces.insert(result_.upper_pieces.end(), pieces.begin(), pieces.end());
     }
-    result_.undersides = undersides(table.edges());
-    if (result_.undersides.empty())
-      result_.upper_borders = {};
-    else
-      find_leaning_corners(table.edges());
+    result_.undersides = undersides(table.edges(), result_.closing);
+    find_leaning_corners(table.edges());
+    if (result_.undersides.empty()) result_.upper_borders = {};
     if (!has_undersides_above_floor()) return;
     result_.walls = wall_profiles(city_, building_);
     for (const EdgeSides& e : table.edges())
@@ -197,12 +195,12 @@ class BuildingCutter {
   }
 
   void find_leaning_corners(std::span<const EdgeSides> edges) {
-    for (const EdgeSides& e : edges) {
-      const auto& [a, b] = e.edge();
-      const double run_m = norm(horizontal(b - a));
-      if (run_m <= least_sliver_m || (run_m > contact_m && !e.counts_as_upright())) continue;
-      result_.corners.push_back(a.z > b.z ? Segment3d{a, b} : Segment3d{b, a});
-    }
+    result_.corners = leaning_corners(edges);
+    if (result_.corners.empty()) return;
+    for (const TriangulatedFacet& f : facets_)
+      for (const Triangle& t : f.triangulation.triangles)
+        add_facet({f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]}, result_.corners);
+    result_.grounded_ends = ends_of(result_.upper_borders);
   }
 
   void find_slabs() {

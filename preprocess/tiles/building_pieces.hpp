@@ -12,8 +12,10 @@
 #include "farlod/point.hpp"
 #include "farlod/problem.hpp"
 #include "package/tile_set.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/horizon_edges.hpp"
+#include "tiles/leaning_corners.hpp"
 #include "tiles/slab.hpp"
 #include "tiles/tiles.hpp"
 #include "tiles/undersides.hpp"
@@ -54,9 +56,12 @@ struct BuildingPieces {
   std::optional<std::vector<WallProfile>> walls;
   std::vector<Slab> slabs;             ///< of such a building
   std::vector<Segment3d> loose_edges;  ///< its edges of an odd number of triangles: where it is not closed
-  std::vector<Segment3d> corners;      ///< its steep edges that lean by some millimetres, from their upper ends
-  std::optional<Cell> only_cell;       ///< the cell of the whole building when it is not cut
-  std::vector<Problem> problems;       ///< without the source, which a building alone does not know; grid frame
+  std::vector<LeaningCorner> corners;
+  Places grounded_ends{
+      &comes_first};  ///< of its upper borders, if it has corners: all are grounded, if no underside is above the ground
+  std::vector<ClosingTriangle> closing;  ///< close cracks between its facets; grid frame
+  std::optional<Cell> only_cell;         ///< the cell of the whole building when it is not cut
+  std::vector<Problem> problems;         ///< without the source, which a building alone does not know; grid frame
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

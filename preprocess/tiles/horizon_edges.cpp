@@ -3,6 +3,7 @@
 #include "tiles/horizon_edges.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -32,8 +33,18 @@ double distance_from_line_m(const Point3d& p, const Segment3d& s) {
   return norm(cross(along, p - s.a)) / norm(along);
 }
 
+/// A part of an edge, and the ends of the part of another one beside it.
+struct SharedStretch {
+  ShareStretch stretch;
+  std::array<Point3d, 2> other;
+  double distance_m = 0.0;  ///< the largest between both
+  [[nodiscard]] Point3d other_at(double share) const {
+    return other[0] + (share - stretch.from) / (stretch.to - stretch.from) * (other[1] - other[0]);
+  }
+};
+
 /// The part of `s` that `other` covers, where both lie on one line; nothing where they do not.
-std::optional<ShareStretch> shared_stretch(const Segment3d& s, const Segment3d& other) {
+std::optional<SharedStretch> shared_stretch(const Segment3d& s, const Segment3d& other) {
   // Project the ends of the other segment onto this one
   const Point3d along = s.b - s.a;
   const double square = dot(along, along);
@@ -47,9 +58,9 @@ std::optional<ShareStretch> shared_stretch(const Segment3d& s, const Segment3d& 
     const double t = (share - share_of(other.a)) * square / dot(other_along, along);
     return point_at(other, std::clamp(t, 0.0, 1.0));
   };
-  for (const double share : {shared.from, shared.to})
-    if (distance_from_line_m(on_other(share), s) > on_line_m) return std::nullopt;
-  return shared;
+  SharedStretch both{shared, {on_other(shared.from), on_other(shared.to)}};
+  for (const Point3d& p : both.other) both.distance_m = std::max(both.distance_m, distance_from_line_m(p, s));
+  return both.distance_m <= on_line_m ? std::optional(both) : std::nullopt;
 }
 
 /// Edges ordered by their west end, to find those near an edge.
@@ -84,16 +95,30 @@ class SortedEdges {
   double widest_m_ = 0.0;
 };
 
-/// The parts of an edge at which it stays an underside when the facets of each other edge on the same line are added.
-std::vector<ShareStretch> open_stretches(const EdgeSides& edge, const SortedEdges& closing) {
-  std::vector<ShareStretch> open{{}};
-  closing.visit_near(edge, [&](const EdgeSides& other) {
-    if (open.empty()) return;
+/// The parts of an edge at which it stays an underside when the facets of each other edge on the same line are added. Adds what
+/// closes the cracks between both.
+std::vector<ShareStretch> open_stretches(const EdgeSides& edge, const SortedEdges& closing_edges,
+                                         std::vector<ClosingTriangle>& closing) {
+  std::vector<SharedStretch> closed;
+  closing_edges.visit_near(edge, [&](const EdgeSides& other) {
     EdgeSides both = edge;
     both.add_sides_of(other);
     if (both.can_be_underside()) return;
-    if (const auto shared = shared_stretch(edge.edge(), other.edge())) open = without(open, *shared);
+    if (const auto shared = shared_stretch(edge.edge(), other.edge())) closed.push_back(*shared);
   });
+  // Cracks are where no edge is that meets this one
+  const auto meets = [](const SharedStretch& s) { return s.distance_m <= least_crack_m; };
+  const auto apart = std::stable_partition(closed.begin(), closed.end(), meets);
+  std::vector<ShareStretch> open{{}};
+  for (auto s = closed.begin(); s != closed.end(); ++s) {
+    if (s >= apart)
+      for (const ShareStretch& part : open) {
+        const double from = std::max(part.from, s->stretch.from), to = std::min(part.to, s->stretch.to);
+        if (from < to)
+          close_crack({point_at(edge.edge(), from), point_at(edge.edge(), to)}, {s->other_at(from), s->other_at(to)}, closing);
+      }
+    open = without(open, s->stretch);
+  }
   return open;
 }
 
@@ -269,19 +294,19 @@ std::vector<HorizonSegment> EdgeTable::horizon_edges() const {
   return result;
 }
 
-std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges) {
+std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges, std::vector<ClosingTriangle>& closing) {
   // Collect the edges that can close another one: a facet continues below them
-  std::vector<const EdgeSides*> closing;
+  std::vector<const EdgeSides*> with_facet_below;
   for (const EdgeSides& e : edges)
-    if (e.has_facet_below()) closing.push_back(&e);
-  const SortedEdges closing_edges(std::move(closing));
+    if (e.has_facet_below()) with_facet_below.push_back(&e);
+  const SortedEdges closing_edges(std::move(with_facet_below));
   // Keep the open parts of each underside
   std::vector<HorizonSegment> result;
   bool is_open = false;  // the building has a facet that ends in the air
   for (const EdgeSides& edge : edges) {
     if (!edge.can_be_underside()) continue;
     const double length_m = norm(edge.edge().b - edge.edge().a);
-    for (const ShareStretch& s : open_stretches(edge, closing_edges)) {
+    for (const ShareStretch& s : open_stretches(edge, closing_edges, closing)) {
       if ((s.to - s.from) * length_m <= on_line_m) continue;
       is_open |= edge.triangle_count() == 1;
       result.push_back(

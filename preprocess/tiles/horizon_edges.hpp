@@ -12,6 +12,7 @@
 #include "base/grid.hpp"
 #include "farlod/point.hpp"
 #include "package/horizon_edge.hpp"
+#include "tiles/contacts.hpp"
 
 namespace farlod::tiles {
 
@@ -130,7 +131,8 @@ class EdgeTable {
 ///       one of these borders, or is connected with a piece that does not.
 ///   (2) Where a long edge meets a chain of shorter ones (a T-junction), the facets of both count.
 /// A border on the ground shows no sky below it. The ground is not known here, so such borders are among the result.
-[[nodiscard]] std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges);
+/// Adds the triangles that close what edges on one line leave open between them, since lines are off by millimetres.
+[[nodiscard]] std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges, std::vector<ClosingTriangle>& closing);
 
 /// A horizon edge, or its part in one cell, rounded to the cell frame.
 struct CellEdge {

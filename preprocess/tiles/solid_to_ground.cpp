@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "city/geometry.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/undersides.hpp"
 
 namespace farlod::tiles {

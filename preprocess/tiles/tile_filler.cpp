@@ -128,7 +128,6 @@ void TileFiller::fill_meshes(TileSet& tiles) {
   pages_->triangle_surfaces.resize_for_overwrite(begins.back().triangles);
   tiles.pages = pages_;
   oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t n) { fill_mesh_of_block(n, begins, tiles); });
-  polygons_ = BlockNotes(blocks_.size());
 }
 
 void TileFiller::fill_mesh_of_block(std::size_t block, const std::vector<Counts>& begins, TileSet& tiles) {
@@ -173,6 +172,7 @@ void TileFiller::view_mesh(const Counts& begin, const Counts& count, Tile& tile)
 }
 
 void TileFiller::fill_edges(TileSet& tiles) {
+  polygons_ = BlockNotes(blocks_.size());
   const std::vector<Counts> begins = begins_of_tiles();
   pages_->horizon_edges.resize_for_overwrite(begins.back().edges);
   oneapi::tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t n) { fill_edges_of_block(n, begins, tiles); });

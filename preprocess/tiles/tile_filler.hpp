@@ -50,9 +50,9 @@ class TileFiller {
   void add_polygon(Cell cell, std::span<const Point3f> polygon, std::uint32_t surface);
   void add_edge(Cell cell, const HorizonEdge& edge);
 
-  /// Fills the meshes of the tiles, one for each cell of the grid. Polygons can be added no more.
+  /// Fills the meshes of the tiles, one for each cell of the grid. Called again once more polygons have been added.
   void fill_meshes(TileSet& tiles);
-  /// Fills the edges of the tiles. Called last.
+  /// Fills the edges of the tiles. Called last: polygons can be added no more.
   void fill_edges(TileSet& tiles);
 
  private:

@@ -3,7 +3,6 @@
 #include "tiles/tiles.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +13,16 @@
 #include "base/expects.hpp"
 #include "city/geometry.hpp"
 #include "plausibility/standing_heights.hpp"
+#include "tiles/batches.hpp"
 #include "tiles/border_roles.hpp"
 #include "tiles/building_bases.hpp"
 #include "tiles/building_pieces.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/tile_filler.hpp"
 #include "tiles/undersides.hpp"
 
 namespace farlod::tiles {
 namespace {
-
-/// Objects that one thread cuts in one batch, and batches that may wait to be placed. This bounds the memory of what waits.
-constexpr std::size_t batch_size = 256, batches_at_once = 16;
 
 double area_of(std::span<const Point3f> convex_polygon) {
   double area_m2 = 0.0;
@@ -32,48 +30,6 @@ double area_of(std::span<const Point3f> convex_polygon) {
     area_m2 += 0.5 * norm(cross(convex_polygon[n - 1] - convex_polygon[0], convex_polygon[n] - convex_polygon[0]));
   return area_m2;
 }
-
-/// Calls place(item, make(item)) for each item that `next` hands out: some at a time, none at the end. The calls of `make` run in
-/// parallel; those of `place` run in order, one at a time.
-template <class Next, class Make, class Place>
-void make_and_place(const Next& next, const std::stop_token& stop, const Make& make, const Place& place) {
-  namespace tbb = oneapi::tbb;
-  using Items = decltype(next());
-  using Batch = std::pair<Items, std::vector<decltype(make(std::declval<Items>().front()))>>;
-  const auto begin_batch = [&](tbb::flow_control& flow) {
-    Items items = next();
-    if (items.empty()) flow.stop();
-    return items;
-  };
-  const auto make_batch = [&](Items items) {
-    Batch batch{std::move(items), {}};
-    for (const auto& item : batch.first) {
-      throw_if_cancelled(stop);
-      batch.second.push_back(make(item));
-    }
-    return batch;
-  };
-  const auto place_batch = [&](Batch batch) {
-    for (std::size_t k = 0; k < batch.second.size(); ++k) place(batch.first[k], batch.second[k]);
-  };
-  tbb::parallel_pipeline(batches_at_once, tbb::make_filter<void, Items>(tbb::filter_mode::serial_in_order, begin_batch) &
-                                              tbb::make_filter<Items, Batch>(tbb::filter_mode::parallel, make_batch) &
-                                              tbb::make_filter<Batch, void>(tbb::filter_mode::serial_in_order, place_batch));
-}
-
-/// Hands out the numbers below `count`.
-class Numbers {
- public:
-  explicit Numbers(std::size_t count) : count_(count) {}
-  std::vector<std::size_t> next(std::size_t most) {
-    std::vector<std::size_t> numbers;
-    for (; numbers.size() < most && next_ < count_; ++next_) numbers.push_back(next_);
-    return numbers;
-  }
-
- private:
-  std::size_t count_, next_ = 0;
-};
 
 class TileCutter {
  public:
@@ -121,6 +77,8 @@ class TileCutter {
   struct OverhangingBuilding {
     std::vector<UpperBorder> upper_borders;
     std::vector<CellEdge> undersides, corners;
+    std::vector<ClosingTriangle> closing;  ///< cracks where it touches others
+    std::optional<std::uint32_t> closing_surface;
     std::optional<Cell> only_cell;
     struct {
       std::uint32_t begin = 0, end = 0;
@@ -232,27 +190,53 @@ class TileCutter {
       tiles_.surfaces.push_back(s.surface);
     }
     for (const SurfacePiece& p : cut_building.pieces) place(p.piece, first_surface + p.surface);
-    std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
+    std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides, *ground_);
     double foundation_top_m = -std::numeric_limits<double>::infinity();
     if (!undersides.empty() && (bases_[number] != Base::above_ground || building.foot == Foot::on_ground))
       if (const auto foundation = take_foundation(city_.points_of(building), building.foot, undersides, ground_height())) {
         place_foundation(building, cut_building, *foundation, report);
         foundation_top_m = foundation->top_m;
       }
+    std::optional<std::uint32_t> closing_surface;
+    place_closing(cut_building.closing, first_surface, cut_building.only_cell, closing_surface);
     if (undersides.empty()) {
       for (const CellEdge& edge : cut_building.upper_pieces) place(edge);
-      return;
+      const auto closing = closing_below(std::move(cut_building.corners), cut_building.grounded_ends, ground_height());
+      return place_closing(closing, first_surface, cut_building.only_cell, closing_surface);
     }
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
     overhanging.only_cell = cut_building.only_cell;
+    overhanging.closing_surface = closing_surface;
     overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
     if (!cut_building.walls) cut_building.walls = wall_profiles(city_, building);
     BordersWithRoles borders = borders_with_roles(cut_building, undersides, [this, foundation_top_m](Point2d p) {
       return std::max(ground_->height_at(p), foundation_top_m);
     });
+    place_closing(borders.closing, first_surface, cut_building.only_cell, overhanging.closing_surface);
     overhanging.upper_borders = std::move(borders.upper);
     overhanging.undersides = cut(borders.undersides, cut_building.only_cell);
     overhanging.corners = cut(borders.corners, cut_building.only_cell);
+  }
+
+  /// Places what closes cracks, above the ground, as one more surface of the building that `surface` is one of. It looks down, so
+  /// that nothing below it counts as inside.
+  void place_closing(const std::vector<ClosingTriangle>& closing, std::uint32_t surface, const std::optional<Cell>& only_cell,
+                     std::optional<std::uint32_t>& number) {
+    const auto is_on_ground = [this](const Point3d& p) { return p.z <= ground_->height_at(horizontal(p)) + ground_contact_m; };
+    for (const ClosingTriangle& triangle : closing) {
+      if (std::all_of(triangle.begin(), triangle.end(), is_on_ground)) continue;
+      for (const CellPiece& piece : cut_unless_whole(triangle, only_cell, grid_, tiles_.height_origin_m)) {
+        if (!grid_.cells.contains(piece.cell)) continue;
+        if (!number) number = add_closing_surface(surface);
+        place(piece, *number);
+        tiles_.surfaces[*number].area_m2 += area_of(piece.polygon);
+      }
+    }
+  }
+  std::uint32_t add_closing_surface(std::uint32_t of_building) {
+    const Surface beside = tiles_.surfaces[of_building];
+    tiles_.surfaces.push_back({beside.building, closing_number, closing_part, SurfaceKind::foundation, {0.0, 0.0, -1.0}, 0.0});
+    return static_cast<std::uint32_t>(tiles_.surfaces.size() - 1);
   }
 
   [[nodiscard]] std::vector<CellEdge> cut(const std::vector<HorizonSegment>& borders,
@@ -314,13 +298,9 @@ class TileCutter {
   void place_overhanging_buildings() {
     oneapi::tbb::parallel_for(std::size_t{0}, overhanging_.size(), [this](std::size_t n) {
       throw_if_cancelled(stop_);
-      std::vector<CellEdge> open;
-      for (const CellEdge& underside : overhanging_[n].undersides)
-        for (const HorizonEdge& part : without_contacts(underside.edge, tiles_.tile(underside.cell)))
-          open.push_back({underside.cell, part});
-      open.insert(open.end(), overhanging_[n].corners.begin(), overhanging_[n].corners.end());
-      overhanging_[n].undersides = std::move(open);
+      find_contacts(overhanging_[n]);
     });
+    close_contacts();
     for (const OverhangingBuilding& building : overhanging_) {
       // A roof whose borders all touch walls shows no sky below them. A receiver below it still has it overhead
       for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
@@ -331,29 +311,42 @@ class TileCutter {
     overhanging_.clear();
   }
 
-  /// The parts of undersides that are above the ground.
-  [[nodiscard]] std::vector<HorizonSegment> above_ground(const std::vector<HorizonSegment>& undersides) const {
-    std::vector<HorizonSegment> result;
-    for (const HorizonSegment& underside : undersides) {
-      const Point3d &a = underside.segment.a, &b = underside.segment.b;
-      const auto intervals = static_cast<std::size_t>(ground_sampling_intervals(norm(horizontal(b - a))));
-      const auto point_at = [&](std::size_t k) { return a + static_cast<double>(k) / static_cast<double>(intervals) * (b - a); };
-      std::vector<bool> is_above;
-      for (std::size_t k = 0; k <= intervals; ++k) is_above.push_back(ground_->is_above(point_at(k), ground_contact_m));
-      // An interval counts as above the ground when one of its ends is; join consecutive intervals
-      for (std::size_t from = 0, to = 0; from < intervals; from = to + 1) {
-        for (to = from; to < intervals && (is_above[to] || is_above[to + 1]); ++to) {
-        }
-        if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.adjacent, underside.role});
+  void find_contacts(OverhangingBuilding& building) const {
+    std::vector<CellEdge> open;
+    std::vector<ClosingTriangle> closing;
+    for (const CellEdge& underside : building.undersides) {
+      closing.clear();
+      for (const HorizonEdge& part : without_contacts(underside.edge, tiles_.tile(underside.cell), closing))
+        open.push_back({underside.cell, part});
+      const Point2d corner = grid_.corner_of(underside.cell);
+      for (ClosingTriangle& triangle : closing) {
+        for (Point3d& p : triangle) p = p + Point3d{corner.x, corner.y, tiles_.height_origin_m};
+        building.closing.push_back(triangle);
       }
     }
-    return result;
+    open.insert(open.end(), building.corners.begin(), building.corners.end());
+    building.undersides = std::move(open);
+  }
+
+  /// The meshes have been filled without it: only now it is known what touches.
+  void close_contacts() {
+    bool some = false;
+    for (OverhangingBuilding& building : overhanging_) {
+      place_closing(building.closing, building.surfaces.begin, building.only_cell, building.closing_surface);
+      if (building.closing_surface) tiles_.surfaces[*building.closing_surface].grounded = false;
+      some = some || !building.closing.empty();
+    }
+    if (some) filler_.fill_meshes(tiles_);
   }
 
   [[nodiscard]] Point3d p_projected(const Point3d& p_grid) const {
     const Point2d p = origin_m_ + grid_.rotation.city_from_grid(horizontal(p_grid));
     return {p.x, p.y, p_grid.z};
   }
+
+  /// No surface of a file has so high a number, and no part.
+  static constexpr std::uint32_t closing_number = 0xFFFFFFFE;
+  static constexpr std::uint16_t closing_part = 0xFFFE;
 
   CityModel city_;  ///< until all is cut
   std::span<const std::string> sources_;

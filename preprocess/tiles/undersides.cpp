@@ -177,179 +177,22 @@ bool GroundedWalls::close_below(const Segment3d& s) const {
   });
 }
 
-namespace {
-
-Point3d exactly(const Point3f& p) { return {p.x, p.y, p.z}; }
-
-/// A part of an edge, in metres from its first end.
-struct Stretch {
-  double from_m = 0.0, to_m = 0.0;
-};
-
-/// The triangles beside a stretch, in the plane perpendicular to the edge.
-struct CrossSection {
-  /// The smallest rise on either side, as in EdgeSides.
-  double left_rad = std::numeric_limits<double>::infinity(), right_rad = left_rad;
-  bool goes_down = false;  ///< a vertical triangle lies below the edge
-
-  void add(const CrossSection& o) {
-    left_rad = std::min(left_rad, o.left_rad);
-    right_rad = std::min(right_rad, o.right_rad);
-    goes_down |= o.goes_down;
-  }
-  [[nodiscard]] bool is_closed() const { return goes_down || left_rad + right_rad <= slight_bend_rad; }
-};
-
-struct Contact {
-  Stretch stretch;
-  CrossSection section;
-};
-
-/// Coordinates of an edge: x along the edge, y horizontally to its left, z perpendicular to both, upwards.
-class EdgeFrame {
- public:
-  explicit EdgeFrame(const HorizonEdge& e) : a_(exactly(e.a)) {
-    const Point3d way = exactly(e.b) - a_;
-    length_m_ = norm(way);
-    along_ = (1.0 / length_m_) * way;
-    const double run = norm(horizontal(along_));
-    left_ = {-along_.y / run, along_.x / run, 0.0};
-    up_ = cross(along_, left_);
-  }
-  [[nodiscard]] double length_m() const { return length_m_; }
-  [[nodiscard]] Point3d seen(const Point3f& p) const {
-    const Point3d v = exactly(p) - a_;
-    return {dot(v, along_), dot(v, left_), dot(v, up_)};
-  }
-
- private:
-  Point3d a_, along_, left_, up_;
-  double length_m_ = 0.0;
-};
-
-using Corners = std::array<Point3d, 3>;  ///< in an EdgeFrame
-
-/// The stretch of the edge (the x axis) that is within `contact_m` of the triangle, measured in its plane and perpendicular to
-/// it; nothing when the stretch is too short to count.
-std::optional<Stretch> touched(const Corners& t, double length_m) {
-  const Point3d normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
-  if (normal == Point3d{}) return std::nullopt;
-  // Each condition is linear along the edge, s·rate ≤ room, and cuts the stretch at one end
-  Stretch s{0.0, length_m};
-  const auto limit = [&s](double rate, double room) {
-    if (rate > 0.0) s.to_m = std::min(s.to_m, room / rate);
-    if (rate < 0.0) s.from_m = std::max(s.from_m, room / rate);
-    if (rate == 0.0 && room < 0.0) s.to_m = -1.0;
-  };
-  // The distance from the triangle's plane is at most contact_m on either side
-  const double off_plane = dot(normal, t[0]);
-  limit(normal.x, off_plane + contact_m);
-  limit(-normal.x, -off_plane + contact_m);
-  // The distance beyond each side of the triangle is at most contact_m
-  for (std::size_t n = 0; n < 3; ++n) {
-    const Point3d side = t[(n + 1) % 3] - t[n];
-    const Point3d outward = normalized(cross(side, normal));
-    limit(outward.x, dot(outward, t[n]) + contact_m);
-  }
-  // A triangle that meets the edge in a point touches it along 2·contact_m: that is no contact
-  if (s.to_m - s.from_m <= 2.0 * contact_m && s.to_m - s.from_m < 0.5 * length_m) return std::nullopt;
-  return s;
-}
-
-/// Whether a triangle counts as vertical for the edge, as in EdgeSides: judged by its plane, since its cross section may be
-/// short.
-bool counts_as_vertical(const Corners& t) {
-  const Point3d normal = cross(t[1] - t[0], t[2] - t[0]);
-  const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
-  const double longest_m = std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
-  // Corners are rounded: over the smallest height of the triangle, this turns its plane
-  const double rounding = longest_m * on_line_m / norm(normal);
-  const double lean = std::abs(normal.z) / std::abs(normal.y);
-  return lean <= std::max(leaning_wall_z, rounding) && lean * (high - low) <= max_lean_m;
-}
-
-/// The cross section of the triangle with the plane perpendicular to the edge at `at_m`.
-CrossSection section_at(const Corners& t, double at_m) {
-  const bool is_wall = counts_as_vertical(t);
-  CrossSection section;
-  for (std::size_t n = 0; n < 3; ++n) {
-    const Point3d &a = t[n], &b = t[(n + 1) % 3];
-    // Intersect a side of the triangle with that plane
-    const double da = a.x - at_m, db = b.x - at_m;
-    if (da * db > 0.0 || da == db) continue;
-    const double share = da / (da - db), aside_m = a.y + share * (b.y - a.y), rise_m = a.z + share * (b.z - a.z);
-    // The end at the edge itself has no direction
-    if (std::hypot(aside_m, rise_m) <= 2.0 * contact_m) continue;
-    // A nearly vertical triangle closes the edge when it lies below, and has no effect when it rises
-    if (is_wall && std::abs(rise_m) > std::abs(aside_m)) {
-      section.goes_down |= rise_m < 0.0;
-      continue;
+std::vector<HorizonSegment> above_ground(const std::vector<HorizonSegment>& undersides, const Ground& ground) {
+  std::vector<HorizonSegment> result;
+  for (const HorizonSegment& underside : undersides) {
+    const Point3d &a = underside.segment.a, &b = underside.segment.b;
+    const auto intervals = static_cast<std::size_t>(ground_sampling_intervals(norm(horizontal(b - a))));
+    const auto point_at = [&](std::size_t k) { return a + static_cast<double>(k) / static_cast<double>(intervals) * (b - a); };
+    std::vector<bool> is_above;
+    for (std::size_t k = 0; k <= intervals; ++k) is_above.push_back(ground.is_above(point_at(k), ground_contact_m));
+    // An interval counts as above the ground when one of its ends is; join consecutive intervals
+    for (std::size_t from = 0, to = 0; from < intervals; from = to + 1) {
+      for (to = from; to < intervals && (is_above[to] || is_above[to + 1]); ++to) {
+      }
+      if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.adjacent, underside.role});
     }
-    double& side_rad = aside_m > 0.0 ? section.left_rad : section.right_rad;
-    side_rad = std::min(side_rad, std::atan2(rise_m, std::abs(aside_m)));
   }
-  return section;
-}
-
-std::vector<Contact> contacts_of(const HorizonEdge& edge, const EdgeFrame& frame, const Tile& tile) {
-  // Compare bounding boxes first: most triangles of the tile are far away
-  constexpr auto give = static_cast<float>(contact_m);
-  const Point3f low{std::min(edge.a.x, edge.b.x) - give, std::min(edge.a.y, edge.b.y) - give,
-                    std::min(edge.a.z, edge.b.z) - give};
-  const Point3f high{std::max(edge.a.x, edge.b.x) + give, std::max(edge.a.y, edge.b.y) + give,
-                     std::max(edge.a.z, edge.b.z) + give};
-  std::vector<Contact> contacts;
-  for (const Triangle& t : tile.triangles) {
-    const Point3f &a = tile.vertices[t.a], &b = tile.vertices[t.b], &c = tile.vertices[t.c];
-    if (std::min({a.x, b.x, c.x}) > high.x || std::max({a.x, b.x, c.x}) < low.x || std::min({a.y, b.y, c.y}) > high.y ||
-        std::max({a.y, b.y, c.y}) < low.y || std::min({a.z, b.z, c.z}) > high.z || std::max({a.z, b.z, c.z}) < low.z)
-      continue;
-    const Corners corners{frame.seen(a), frame.seen(b), frame.seen(c)};
-    if (const auto stretch = touched(corners, frame.length_m()))
-      contacts.push_back({*stretch, section_at(corners, 0.5 * (stretch->from_m + stretch->to_m))});
-  }
-  return contacts;
-}
-
-HorizonEdge part_of(const HorizonEdge& edge, double from, double to) {
-  const auto at = [&](double share) {
-    return Point3f{static_cast<float>(std::lerp(double{edge.a.x}, double{edge.b.x}, share)),
-                   static_cast<float>(std::lerp(double{edge.a.y}, double{edge.b.y}, share)),
-                   static_cast<float>(std::lerp(double{edge.a.z}, double{edge.b.z}, share))};
-  };
-  return {at(from), at(to), edge.adjacent, edge.role};
-}
-
-}  // namespace
-
-std::vector<HorizonEdge> without_contacts(const HorizonEdge& edge, const Tile& tile) {
-  const EdgeFrame frame(edge);
-  if (!(frame.length_m() > on_line_m)) return {};
-  const std::vector<Contact> contacts = contacts_of(edge, frame, tile);
-  // Cut the edge where contacts begin and end: on each interval between, the set of contacts is constant
-  std::vector<double> places{0.0, frame.length_m()};
-  for (const Contact& c : contacts) {
-    places.push_back(std::max(c.stretch.from_m, 0.0));
-    places.push_back(std::min(c.stretch.to_m, frame.length_m()));
-  }
-  std::sort(places.begin(), places.end());
-  // Join consecutive open intervals, and keep those that are longer than the tolerance
-  std::vector<HorizonEdge> open;
-  std::optional<double> open_from;
-  for (std::size_t n = 1; n < places.size(); ++n) {
-    const double middle_m = 0.5 * (places[n - 1] + places[n]);
-    CrossSection section;
-    for (const Contact& c : contacts)
-      if (c.stretch.from_m <= middle_m && middle_m <= c.stretch.to_m) section.add(c.section);
-    const bool is_open = !section.is_closed();
-    if (is_open && !open_from) open_from = places[n - 1];
-    const bool ends = n + 1 == places.size() || !is_open;
-    const double open_to = is_open ? places[n] : places[n - 1];
-    if (open_from && ends && open_to - *open_from > contact_m)
-      open.push_back(part_of(edge, *open_from / frame.length_m(), open_to / frame.length_m()));
-    if (!is_open) open_from.reset();
-  }
-  return open;
+  return result;
 }
 
 }  // namespace farlod::tiles

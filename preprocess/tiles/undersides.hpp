@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "farlod/point.hpp"
-#include "package/horizon_edge.hpp"
-#include "package/tile_set.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/horizon_edges.hpp"
 
@@ -51,12 +49,7 @@ class GroundedWalls {
   std::vector<WallProfile> grounded_;
 };
 
-/// A triangle touches an edge when it is nearer than this: walls end on roofs, and balconies at walls, with gaps of about a
-/// centimetre.
-inline constexpr double contact_m = 0.02;
-
-/// The parts of a lower border that stay open: no triangle of the tile, of any building, touches the border there and continues
-/// below it. The border and the tile are in the frame of the same cell.
-[[nodiscard]] std::vector<HorizonEdge> without_contacts(const HorizonEdge& edge, const Tile& tile);
+/// The parts of lower borders that are above the ground.
+[[nodiscard]] std::vector<HorizonSegment> above_ground(const std::vector<HorizonSegment>& undersides, const Ground& ground);
 
 }  // namespace farlod::tiles

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "city/geometry.hpp"
+#include "tiles/contacts.hpp"
 
 namespace farlod::tiles {
 namespace {

@@ -13,6 +13,7 @@
 #include "base/grid.hpp"
 #include "tests/preprocess/tiles/bodies.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/horizon_edges.hpp"
 #include "tiles/tiles.hpp"
 
@@ -74,6 +75,12 @@ inline std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edg
   std::vector<Segment3d> segments;
   for (const HorizonSegment& e : edges) segments.push_back(e.segment);
   return segments;
+}
+
+inline double area_m2(const std::vector<ClosingTriangle>& triangles) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : triangles) sum += 0.5 * norm(cross(b - a, c - a));
+  return sum;
 }
 
 /// Level ground at 0 m, far beyond cells of 50 m.

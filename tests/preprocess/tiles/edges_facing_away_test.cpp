@@ -265,7 +265,8 @@ void compare_borders(RandomCity& random, double box_edge_m, Count& count) {
   std::vector<HorizonSegment> borders;
   for (const Body& body : random.bodies()) {
     bodies.push_back(floating(body, random));
-    const std::vector<HorizonSegment> own = undersides(test::table_of(bodies.back()).edges());
+    std::vector<ClosingTriangle> closing;
+    const std::vector<HorizonSegment> own = undersides(test::table_of(bodies.back()).edges(), closing);
     borders.insert(borders.end(), own.begin(), own.end());
   }
   for (const HorizonSegment& e : borders) EXPECT_EQ(e.role, EdgeRole::underside);

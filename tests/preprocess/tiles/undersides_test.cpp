@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/preprocess/tiles/borders.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/horizon_edges.hpp"
 #include "tiles/undersides.hpp"
 
@@ -16,8 +17,13 @@ using test::Face;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+std::vector<HorizonSegment> borders_of(const std::vector<Face>& faces) {
+  std::vector<ClosingTriangle> closing;
+  return undersides(test::table_of(faces).edges(), closing);
+}
+
 std::vector<Segment3d> undersides_of(const std::vector<Face>& faces) {
-  const auto borders = undersides(test::table_of(faces).edges());
+  const auto borders = borders_of(faces);
   for (const HorizonSegment& e : borders) EXPECT_EQ(e.role, EdgeRole::underside);
   return as_set(test::segments_of(borders));
 }
@@ -153,12 +159,12 @@ TEST(Undersides, TheDiagonalOfABentRoofIsNone) {
 }
 
 TEST(Undersides, WhereAFacetEndsNothingIsBesideItOnOneSide) {
-  for (const HorizonSegment& e : undersides(test::table_of({{{0, 0, 5}, {0, 10, 5}, {10, 10, 5}, {10, 0, 5}}}).edges()))
+  for (const HorizonSegment& e : borders_of({{{0, 0, 5}, {0, 10, 5}, {10, 10, 5}, {10, 0, 5}}}))
     EXPECT_NE(e.adjacent.left == AdjacentSlopes::straight_up, e.adjacent.right == AdjacentSlopes::straight_up);
 }
 
 TEST(Undersides, RisesAreTheFlattestFacetsAndALittleMore) {
-  const auto borders = undersides(test::table_of(test::box(0, 0, 10, 20, 4, 7)).edges());
+  const auto borders = borders_of(test::box(0, 0, 10, 20, 4, 7));
   const std::int8_t give = AdjacentSlopes::rounded_up(4.0 * slight_bend_rad);
   ASSERT_EQ(borders.size(), 4U);
   for (const HorizonSegment& e : borders) {
@@ -181,141 +187,20 @@ TEST(Undersides, TheTileStageKeepsThoseAboveTheGround) {
   EXPECT_FALSE(test::is_grounded(tiles, 2));
 }
 
-/// A lower border 10 m long, 5 m up, along the x axis.
-const HorizonEdge border{{2, 4, 5}, {12, 4, 5}, {3, AdjacentSlopes::straight_up}, EdgeRole::underside};
-
-std::vector<HorizonEdge> open_parts(const std::vector<std::vector<Point3f>>& polygons) {
-  Tile tile;
-  for (const auto& polygon : polygons) tile.add_polygon(polygon, 0);
-  return without_contacts(border, tile);
-}
-
-std::vector<Point3f> upright(float y, float x0, float x1, float low_m, float high_m) {
-  return {{x0, y, low_m}, {x1, y, low_m}, {x1, y, high_m}, {x0, y, high_m}};
-}
-std::vector<Point3f> level(float x0, float y0, float x1, float y1, float z) {
-  return {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}};
-}
-
-void expect_whole(const std::vector<HorizonEdge>& open) {
-  ASSERT_EQ(open.size(), 1U);
-  EXPECT_EQ(open[0], border);
-}
-
-TEST(Contacts, WithoutAnyTheBorderStaysWhole) {
-  expect_whole(open_parts({}));
-  expect_whole(open_parts({level(0, 0, 20, 20, 0)}));
-}
-
-TEST(Contacts, ItsOwnFacetsCloseNothing) { expect_whole(open_parts({upright(4, 2, 12, 5, 9), level(2, 4, 12, 9, 5)})); }
-
-TEST(Contacts, FloatingDuplicatesCloseNothing) {
-  const auto wall = upright(4, 2, 12, 5, 9), soffit = level(2, 4, 12, 9, 5);
-  expect_whole(open_parts({wall, soffit, wall, soffit}));
-}
-
-TEST(Contacts, AWallBelowOrAcrossCloses) {
-  EXPECT_THAT(open_parts({upright(4, 2, 12, 0, 5)}), IsEmpty());
-  EXPECT_THAT(open_parts({upright(4, 0, 20, 0, 30)}), IsEmpty());
-}
-
-TEST(Contacts, AWallThatLeansByLittleCloses) {
-  // Its corners are rounded, and its top stands a centimetre beside the border
-  EXPECT_THAT(open_parts({{{2, 4.01F, 5}, {12, 4.01F, 5}, {12, 4.03F, 1}, {2, 4.03F, 1}}}), IsEmpty());
-  EXPECT_THAT(open_parts({{{2, 4, 5}, {12, 4, 5}, {12, 4.001F, 4.9F}, {2, 4.001F, 4.9F}}}), IsEmpty());
-}
-
-TEST(Contacts, AWallThatLeansByMoreDoesNotEvenWhereItsSectionIsShort) {
-  // The triangle below the border ends 4 m to the west of it and 4 m lower: across the border it is only centimetres high
-  expect_whole(open_parts({{{2, 4, 5}, {12, 4, 5}, {-30, 4.08F, 1}}}));
-}
-
-TEST(Contacts, ARoofThatGoesOnOnBothSidesCloses) {
-  EXPECT_THAT(open_parts({level(0, 0, 20, 20, 5)}), IsEmpty());
-  // One side may be the border's own facet
-  EXPECT_THAT(open_parts({level(2, 4, 12, 9, 5), level(0, 0, 20, 4, 5)}), IsEmpty());
-}
-
-TEST(Contacts, ARoofOnOneSideAloneDoesNot) { expect_whole(open_parts({level(0, 4, 20, 9, 5)})); }
-
-TEST(Contacts, ASlopeThatFallsToOneSideAndRisesToTheOther) {
-  // It cuts the border's line: below it, the slope goes on
-  EXPECT_THAT(open_parts({{{0, 0, 3}, {20, 0, 3}, {20, 8, 7}, {0, 8, 7}}}), IsEmpty());
-}
-
-TEST(Contacts, AreNearerThanTheirDistance) {
-  const auto near_m = static_cast<float>(0.7 * contact_m), far_m = static_cast<float>(1.5 * contact_m);
-  EXPECT_THAT(open_parts({level(0, 0, 20, 20, 5 - near_m)}), IsEmpty());
-  EXPECT_THAT(open_parts({upright(4 + near_m, 2, 12, 0, 5)}), IsEmpty());
-  expect_whole(open_parts({level(0, 0, 20, 20, 5 - far_m)}));
-  expect_whole(open_parts({upright(4 + far_m, 2, 12, 0, 5)}));
-}
-
-TEST(Contacts, WhatTouchesAPartClosesThatPart) {
-  const auto open = open_parts({upright(4, 5, 8, 0, 5)});
-  ASSERT_EQ(open.size(), 2U);
-  const std::array<std::pair<float, float>, 2> expected{{{2, 5}, {8, 12}}};
-  for (std::size_t n = 0; n < 2; ++n) {
-    // At a corner both sides of a triangle are that far away: at a right angle and more, √2 times
-    EXPECT_NEAR(open[n].a.x, expected[n].first, 1.5 * contact_m);
-    EXPECT_NEAR(open[n].b.x, expected[n].second, 1.5 * contact_m);
-    for (const Point3f& p : {open[n].a, open[n].b}) EXPECT_EQ((Point3f{0, p.y, p.z}), (Point3f{0, 4, 5}));
-    EXPECT_EQ(open[n].adjacent, border.adjacent);
-    EXPECT_EQ(open[n].role, EdgeRole::underside);
-  }
-}
-
-TEST(Contacts, TwoThatTogetherCoverItCloseItWhole) {
-  EXPECT_THAT(open_parts({upright(4, 0, 7, 0, 5), upright(4, 7, 15, 0, 9)}), IsEmpty());
-}
-
-TEST(Contacts, AWallAcrossTheBorderTouchesAPlaceOnly) {
-  double length_m = 0.0;
-  for (const HorizonEdge& e : open_parts({{{7, 0, 0}, {7, 9, 0}, {7, 9, 9}, {7, 0, 9}}})) length_m += e.b.x - e.a.x;
-  EXPECT_NEAR(length_m, 10.0, 3.0 * contact_m);
-}
-
-// The whole tile stage
-
-TEST(Contacts, BelowABodyOnAnotherBuildingsRoofNoSkyIsSeen) {
-  test::SmallTown town;
-  town.add("house", test::box(2, 2, 30, 30, 0, 9));
-  town.add("penthouse", test::box(5, 5, 15, 15, 9, 12));
-  const TileSet tiles = town.tiles();
-  EXPECT_THAT(test::edges_of(tiles, EdgeRole::underside), IsEmpty());
-  EXPECT_THAT(test::edges_of(tiles, EdgeRole::overhang), IsEmpty());
-  EXPECT_FALSE(test::is_grounded(tiles, 2)) << "what rests on walls all around may be overhead";
-}
-
-TEST(Contacts, ABodyThatReachesOverTheRoofsEdgeIsNot) {
-  test::SmallTown town;
-  town.add("house", test::box(2, 2, 30, 30, 0, 9));
-  town.add("penthouse", test::box(5, 5, 35, 15, 9, 12));
-  const TileSet tiles = town.tiles();
-  EXPECT_FALSE(test::is_grounded(tiles, 2));
-  // What lies beyond the roof is open: 5 m on both sides, and the end
-  double open_m = 0.0;
-  for (const Segment3d& s : test::edges_of(tiles, EdgeRole::underside)) open_m += norm(s.b - s.a);
-  EXPECT_NEAR(open_m, 5.0 + 10.0 + 5.0, 4.0 * contact_m);
-}
-
-TEST(Contacts, ABridgeBetweenTwoHousesIsOpenAlongItsSidesAlone) {
-  test::SmallTown town;
-  town.add("west", test::box(2, 2, 12, 30, 0, 15));
-  town.add("east", test::box(30, 2, 40, 30, 0, 15));
-  town.add("bridge", test::box(12, 10, 30, 14, 6, 9));
-  const TileSet tiles = town.tiles();
-  EXPECT_EQ(test::edges_of(tiles, EdgeRole::underside), test::as_set({{{12, 10, 6}, {30, 10, 6}}, {{12, 14, 6}, {30, 14, 6}}}));
-}
-
-TEST(Contacts, TwoFloatingDuplicatesStayOpen) {
-  test::SmallTown town;
-  town.add("bridge", test::box(10, 10, 30, 14, 6, 9));
-  town.add("again", test::box(10, 10, 30, 14, 6, 9));
-  const TileSet tiles = town.tiles();
-  EXPECT_FALSE(test::is_grounded(tiles, 1));
-  EXPECT_FALSE(test::is_grounded(tiles, 2));
-  EXPECT_EQ(test::edges_of(tiles, EdgeRole::underside).size(), 8U);
+TEST(Undersides, EdgesOnALineThatAreOffByAMillimetreAreJoinedAcrossTheCrack) {
+  const auto wall_below = [](double top_m) {
+    std::vector<ClosingTriangle> closing;
+    EXPECT_EQ(undersides(test::table_of({{{0, 0, 3}, {10, 0, 3}, {10, 0, 6}, {0, 0, 6}},
+                                         {{-2, 0, 0}, {12, 0, 0}, {12, 0, top_m}, {-2, 0, top_m}}})
+                             .edges(),
+                         closing)
+                  .size(),
+              1U)
+        << "the foot of the wall below alone";
+    return closing;
+  };
+  EXPECT_THAT(wall_below(3.0), IsEmpty());
+  EXPECT_NEAR(test::area_m2(wall_below(2.999)), 10 * 0.001, 1e-9);
 }
 
 }  // namespace
