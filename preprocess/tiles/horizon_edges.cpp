@@ -128,7 +128,6 @@ CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, dou
           {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
            cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.adjacent, edge.role}};
 }
-constexpr double least_extent_m = 1e-4;
 
 }  // namespace
 
@@ -167,32 +166,16 @@ std::vector<ShareStretch> tidied(std::vector<ShareStretch> stretches, double giv
 
 void EdgeSides::add(const Point3d& opposite, FacetLook look) {
   ++triangle_count_;
-  const Point3d along = edge_.b - edge_.a, v = opposite - edge_.a;
-  const double run_m = norm(horizontal(along)), length_m = norm(along);
-  // Ignore slivers: rounding decides the direction of their planes
-  if (run_m < least_extent_m || norm(cross(along, v)) < least_extent_m * length_m) return;
-  // Horizontal distance of the third corner from the edge, positive to the left
-  const double aside_m = (along.x * v.y - along.y * v.x) / run_m;
-  // Height of the third corner above the edge, perpendicular to the edge in its vertical plane
-  const double ahead_m = dot(horizontal(along), horizontal(v)) / run_m;
-  const double rise_m = (v.z * run_m - ahead_m * along.z) / length_m;
-  const double rise_rad = std::atan2(rise_m, std::abs(aside_m));
-  const bool is_left = aside_m > 0.0;
+  const std::optional<UpperFacets::Facet> facet = upper_.add(edge_.a, edge_.b, opposite);
+  if (!facet) return;
   // For undersides: a nearly vertical triangle closes the edge when it lies below, and has no effect when it rises
-  if (std::abs(aside_m) <= std::min(leaning_wall_z * std::abs(rise_m), max_lean_m)) {
-    over_wall_ |= rise_m < 0.0;
-  } else {
-    double& low_rad = is_left ? left_low_rad_ : right_low_rad_;
-    low_rad = std::min(low_rad, rise_rad);
-    (look == FacetLook::up ? has_roof_ : has_soffit_) = true;
-  }
-  // For horizons: a vertical triangle hides the edge when it rises, and has no effect when it lies below
-  if (std::abs(aside_m) <= angle_tolerance_rad * std::abs(rise_m)) {
-    under_wall_ |= rise_m > 0.0;
+  if (std::abs(facet->aside_m) <= std::min(leaning_wall_z * std::abs(facet->rise_m), max_lean_m)) {
+    over_wall_ |= facet->rise_m < 0.0;
     return;
   }
-  double& side_rad = is_left ? left_rad_ : right_rad_;
-  side_rad = std::max(side_rad, rise_rad);
+  double& low_rad = facet->aside_m > 0.0 ? left_low_rad_ : right_low_rad_;
+  low_rad = std::min(low_rad, facet->rise_rad);
+  (look == FacetLook::up ? has_roof_ : has_soffit_) = true;
 }
 
 void EdgeSides::add_sides_of(const EdgeSides& other) {
@@ -226,19 +209,6 @@ bool EdgeSides::can_be_underside() const {
 
 bool EdgeSides::is_valley() const {
   return triangle_count_ > 1 && has_roof_ && !has_soffit_ && !over_wall_ && left_low_rad_ + right_low_rad_ > slight_bend_rad;
-}
-
-namespace {
-
-/// An edge with a shorter horizontal run than this is vertical: the rounding to the floats of a tile moves its ends farther.
-constexpr double upright_m = 1e-6;
-
-}  // namespace
-
-bool EdgeSides::can_be_horizon() const {
-  if (norm(horizontal(edge_.b - edge_.a)) <= upright_m || under_wall_) return false;
-  // The highest triangles on both sides bend downwards: the edge is convex
-  return left_rad_ + right_rad_ < -angle_tolerance_rad;
 }
 
 namespace {

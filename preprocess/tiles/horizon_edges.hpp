@@ -12,6 +12,7 @@
 #include "base/grid.hpp"
 #include "farlod/point.hpp"
 #include "package/horizon_edge.hpp"
+#include "package/upper_facets.hpp"
 #include "tiles/contacts.hpp"
 
 namespace farlod::tiles {
@@ -44,9 +45,6 @@ struct HorizonSegment {
   bool operator==(const HorizonSegment&) const = default;
 };
 
-/// Two directions that differ by less than this count as one. The rotation into the grid frame rounds a point by less than
-/// 1e-10 m (53 bits of a double, a city below 400 km); over `least_extent_m` this gives the angle.
-inline constexpr double angle_tolerance_rad = 1e-6;
 /// For undersides, a facet or an edge counts as vertical when its tangent from the vertical is below this, and when it leans by
 /// no more than max_lean_m in all. Surveyed walls lean by as much.
 inline constexpr double leaning_wall_z = 0.01;
@@ -60,9 +58,7 @@ inline constexpr double on_line_m = 0.002;
 /// Whether the outward normal of a facet points upwards or downwards. A soffit looks down.
 enum class FacetLook : std::uint8_t { up, down };
 
-/// An edge and the triangles beside it, as far as silhouettes need them. A side of the edge is left or right of the direction
-/// from `a` to `b`, seen from above. The rise of a triangle is the angle at which it leaves the edge, measured in the plane
-/// perpendicular to the edge: 0 is horizontal, positive is upwards. Proof in docs/stages/tiles.md, "Horizon edges".
+/// An edge and the triangles beside it, as far as silhouettes need them. Sides and rises are those of UpperFacets.
 class EdgeSides {
  public:
   EdgeSides(const Point3d& a, const Point3d& b) : edge_{a, b} {}
@@ -71,11 +67,9 @@ class EdgeSides {
   void add(const Point3d& opposite, FacetLook look);
   [[nodiscard]] const Segment3d& edge() const { return edge_; }
   [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
-  [[nodiscard]] AdjacentSlopes adjacent() const {
-    return {AdjacentSlopes::rounded_down(left_rad_), AdjacentSlopes::rounded_down(right_rad_)};
-  }
+  [[nodiscard]] AdjacentSlopes adjacent() const { return upper_.adjacent(); }
   /// False: from every eye, one of the triangles reaches at least as high as the edge wherever the edge is seen.
-  [[nodiscard]] bool can_be_horizon() const;
+  [[nodiscard]] bool can_be_horizon() const { return upper_.can_be_horizon(edge_.a, edge_.b); }
   /// The slopes that HorizonEdge::adjacent holds for a lower border.
   [[nodiscard]] AdjacentSlopes lowest_adjacent_slopes() const;
   /// The edge is a valley between facets that look up, as between two roofs. Below it lies the inside of a closed building.
@@ -92,12 +86,10 @@ class EdgeSides {
 
  private:
   Segment3d edge_;
+  UpperFacets upper_;
   std::uint32_t triangle_count_ = 0;
-  bool under_wall_ = false;                     ///< a vertical triangle rises from the edge
   bool over_wall_ = false;                      ///< a vertical or nearly vertical triangle lies below the edge
   bool has_roof_ = false, has_soffit_ = false;  ///< a triangle that is not vertical looks up, or down
-  /// The largest rise on either side; -infinity without a triangle.
-  double left_rad_ = -std::numeric_limits<double>::infinity(), right_rad_ = -std::numeric_limits<double>::infinity();
   /// The smallest rise on either side; infinity without a triangle.
   double left_low_rad_ = std::numeric_limits<double>::infinity(), right_low_rad_ = std::numeric_limits<double>::infinity();
 };
