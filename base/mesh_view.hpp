@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "farlod/point.hpp"
@@ -22,6 +23,7 @@ struct Triangle {
 struct MeshView {
   std::span<const Point3f> vertices;
   std::span<const Triangle> triangles;
+  std::shared_ptr<const void> held = {};  ///< keeps them, where they were made for this view and its copies
 };
 
 }  // namespace farlod

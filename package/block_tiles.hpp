@@ -18,7 +18,7 @@
 
 namespace farlod {
 
-/// The geometry of one cell, still in the mapped file. Vertices are in the cell frame.
+/// The geometry of one cell, still in the mapped file, or kept by its mesh. Vertices are in the cell frame.
 struct TileView {
   const package::CellRecord* cell = nullptr;
   MeshView mesh;

@@ -93,10 +93,13 @@ static_assert(std::endian::native == std::endian::little,
 inline constexpr std::uint32_t format_version = 10;
 /// The version of a package that knows the ground beyond its grid (far_terrain.hpp): who does not read that would miss mountains.
 inline constexpr std::uint32_t far_terrain_format_version = 11;
+/// The version of natural relief whose tiles are partly in heights.bin (pixel_heights.hpp): who does not read that would miss
+/// most of it. It may know the ground beyond its grid.
+inline constexpr std::uint32_t relief_format_version = 12;
 /// The version of a city with trees, before version 10.
 inline constexpr std::uint32_t canopy_format_version = 9;
 /// The newest one that is read.
-inline constexpr std::uint32_t newest_format_version = far_terrain_format_version;
+inline constexpr std::uint32_t newest_format_version = relief_format_version;
 /// The oldest one that is read.
 inline constexpr std::uint32_t oldest_format_version = 8;
 /// The version of `tiles.bin`, which changes on its own.

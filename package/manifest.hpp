@@ -162,6 +162,8 @@ struct SurfacePixels {
   std::uint32_t columns = 0, rows = 0;
   std::optional<FileStamp> heights = {};    ///< of `heights.bin`, where the surface is made of these pixels
   std::optional<std::uint64_t> walls = {};  ///< sides between two heights that walls stand on, where they were counted
+  /// Squares between four pixels whose triangles are in no tiles file, since readers make them (ReliefTiles); absent without.
+  std::optional<std::uint64_t> squares = {};
 };
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.
@@ -277,8 +279,13 @@ struct ManifestSeal {
 
 /// The version of the format that a package needs.
 [[nodiscard]] inline std::uint32_t version_of(const Manifest& m) {
+  if (m.pixels && m.pixels->squares) return relief_format_version;
   return m.far_terrain ? far_terrain_format_version : format_version;
 }
+
+/// Whether a package is of a surface without walls, pixel for pixel, and of nothing else: rays march over its pixels sooner than
+/// edges are drawn (docs/decisions/0032-a-march-over-pixels.md), and its cells need no far maps.
+[[nodiscard]] bool is_natural_relief(const Manifest& manifest);
 
 /// What users are told of a package.
 [[nodiscard]] inline PackageDescription described(const Manifest& m) {
@@ -300,6 +307,7 @@ struct ManifestSeal {
   d.polygons = m.polygons;
   d.triangles = m.triangles;
   d.manifest_xxh3 = m.file_xxh3;
+  d.is_natural_relief = is_natural_relief(m);
   return d;
 }
 

@@ -174,6 +174,13 @@ SurfacePixels pixels_from(const json& j) {
   return pixels;
 }
 
+/// A version whose tiles are partly in heights.bin has them.
+void read_squares(const json& j, Manifest& m) {
+  require(m.heights().has_value(), "it has no heights, of which its tiles are made");
+  m.pixels->squares = whole_number<std::uint64_t>(j.at("squares"));
+  require(*m.pixels->squares <= std::uint64_t{m.pixels->columns} * m.pixels->rows, "it has more squares than pixels");
+}
+
 CanopyFile canopy_from(const json& j) {
   constexpr std::uint64_t most_crowns = std::uint64_t{1} << 36;
   CanopyFile canopy{stamp_from(j), {}};
@@ -203,7 +210,9 @@ void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   if (version >= canopy_format_version && !may_lack_crowns) m.canopy = canopy_from(j.at("canopy"));
   if (version > canopy_format_version && j.contains("sources")) m.sources = stamp_from(j.at("sources"));
   if (j.contains("pixels")) m.pixels = pixels_from(j.at("pixels"));
-  if (version >= far_terrain_format_version) m.far_terrain = stamp_from(j.at("far_terrain"));
+  const bool may_lack_far_terrain = version > far_terrain_format_version && !j.contains("far_terrain");
+  if (version >= far_terrain_format_version && !may_lack_far_terrain) m.far_terrain = stamp_from(j.at("far_terrain"));
+  if (version >= relief_format_version) read_squares(j.at("pixels"), m);
   for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b));
   require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");
   const std::vector<Block> expected = m.grid.blocks();

@@ -101,6 +101,7 @@ std::string manifest_text(const Manifest& m) {
                    {"rows", m.pixels->rows}};
   if (m.pixels && m.pixels->heights) j["pixels"]["heights"] = json_of(*m.pixels->heights);
   if (m.pixels && m.pixels->walls) j["pixels"]["walls"] = *m.pixels->walls;
+  if (m.pixels && m.pixels->squares) j["pixels"]["squares"] = *m.pixels->squares;
   if (m.canopy) j["canopy"] = json_of(*m.canopy);
   if (m.sources) j["sources"] = json_of(*m.sources);
   if (m.far_terrain) j["far_terrain"] = json_of(*m.far_terrain);

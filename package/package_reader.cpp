@@ -4,35 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 #include "package/layout.hpp"
+#include "package/relief_tiles.hpp"
 
 namespace farlod {
-
-std::vector<std::size_t> LruCache::use(std::size_t item, std::uint64_t bytes) {
-  // Move the item to the front, or put it there
-  const auto known = entries_.find(item);
-  if (known != entries_.end()) {
-    by_use_.splice(by_use_.begin(), by_use_, known->second);
-  } else {
-    by_use_.push_front({item, bytes});
-    entries_[item] = by_use_.begin();
-    bytes_ += bytes;
-  }
-  // Evict from the back until the rest fits; the item itself stays
-  std::vector<std::size_t> evicted;
-  while (bytes_ > limit_bytes_ && by_use_.size() > 1) {
-    evicted.push_back(by_use_.back().item);
-    bytes_ -= by_use_.back().bytes;
-    entries_.erase(by_use_.back().item);
-    by_use_.pop_back();
-  }
-  return evicted;
-}
 
 namespace {
 
@@ -94,6 +75,8 @@ struct PackageReader::Impl {
   OpenOnDemand<CrownsFile> open_crowns;
   OpenOnDemand<FarTerrainFile> open_far_terrain;
   OpenOnDemand<PixelHeightsFile> open_heights;
+  std::once_flag relief_once;
+  std::optional<ReliefTiles> relief;  ///< once a tile of natural relief is asked for, some of which is in no tiles file
   std::mutex held_mutex;
   LruCache held;
 
@@ -164,6 +147,13 @@ struct PackageReader::Impl {
     return *open.tiles;
   }
 
+  TileView tile(Cell cell) {
+    const TileView stored = tiles(index_of(cell)).tile(cell);
+    if (memory || !manifest.pixels || !manifest.pixels->squares) return stored;
+    std::call_once(relief_once, [&] { relief.emplace(*pixel_heights(), *manifest.pixels, manifest.grid); });
+    return relief->whole(stored, cell);
+  }
+
   /// Whoever has the reader keeps it, even when the block has to go meanwhile. The block's tiles must be open.
   std::shared_ptr<const FarMapReader> far_maps(std::size_t n) {
     OpenBlock& open = blocks[n];
@@ -221,6 +211,8 @@ const package::BlockFiles& PackageReader::files_of(Cell cell) const { return imp
 
 const BlockTiles& PackageReader::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
 
+TileView PackageReader::tile(Cell cell) const { return impl_->tile(cell); }
+
 std::pair<float, float> PackageReader::z_range_m() const {
   auto [low, high] = std::pair(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
   const auto add = [&low = low, &high = high](std::span<const std::byte> bytes, const std::string& name) {
@@ -231,6 +223,12 @@ std::pair<float, float> PackageReader::z_range_m() const {
       high = std::max(high, cell.z_high_m);
     }
   };
+  if (const auto& pixels = manifest().pixels; !impl_->memory && pixels && pixels->squares) {
+    for (const float height_m : pixel_heights()->height_m()) {
+      if (!std::isnan(height_m)) low = std::min(low, height_m), high = std::max(high, height_m);
+    }
+    pixel_heights()->let_go();
+  }
   for (std::size_t n = 0; n < impl_->blocks.size(); ++n) {
     const std::string shown = impl_->shown_name_of(n, package::tiles_file);
     if (impl_->memory)
@@ -300,98 +298,6 @@ void PackageReader::require_unchanged() const { impl_->require_unchanged(); }
 void PackageReader::hold_at_most(std::uint64_t bytes) {
   const std::lock_guard lock(impl_->held_mutex);
   impl_->held.keep_at_most(bytes);
-}
-
-BlockCheck::BlockCheck(const PackageFolder& folder, const package::Manifest& manifest, std::size_t n)
-    : manifest_(manifest),
-      files_(manifest.blocks[n]),
-      cells_(manifest.grid.cells_of(files_.block)),
-      folder_(folder),
-      tiles_name_(std::filesystem::path(package::folder_of(files_)) / package::tiles_file),
-      far_map_name_(std::filesystem::path(package::folder_of(files_)) / package::far_map_file),
-      tiles_file_(folder.file(tiles_name_)),
-      far_map_file_(folder.file(far_map_name_)) {
-  open_tiles();
-  if (files_.has_far_maps()) open_far_maps();
-}
-
-template <class Work>
-bool BlockCheck::succeeds(const PackageFile& file, const Work& work) {
-  try {
-    work();
-    return true;
-  } catch (const PackageDamaged& error) {
-    damage_.push_back({file.name, std::nullopt, error.what()});
-  } catch (const PackageUnusable& error) {
-    // A version that is not the manifest's
-    damage_.push_back({file.name, std::nullopt, error.what()});
-  }
-  return false;
-}
-
-void BlockCheck::open_tiles() {
-  const bool is_mapped = succeeds(tiles_file_, [&] {
-    (void)folder_.plain_file(tiles_name_);
-    tiles_bytes_.emplace(tiles_file_);
-  });
-  if (!is_mapped) return;
-  succeeds(tiles_file_, [&] {
-    check_stamp(tiles_file_, tiles_bytes_->bytes(), files_.tiles);
-    tiles_.emplace(tiles_bytes_->bytes(), cells_, tiles_file_.name);
-    if (files_.has_far_maps() && !manifest_.far_map.is_box() && !tiles_->has_far_cells())
-      throw PackageDamaged(tiles_file_.name + " is damaged: it does not name what its far maps need. Pack the city again.");
-  });
-}
-
-void BlockCheck::open_far_maps() {
-  std::optional<std::uint64_t> bytes;
-  succeeds(far_map_file_, [&] {
-    (void)folder_.plain_file(far_map_name_);
-    const MappedFile file(far_map_file_);
-    bytes = file.bytes().size();
-    check_stamp(far_map_file_, file.bytes(), files_.far_map);
-  });
-  // The maps of a file that was altered tell which cells are concerned; of one that was cut there is nothing more to say
-  if (bytes != files_.far_map.bytes) return;
-  if (!succeeds(far_map_file_, [&] { far_maps_.emplace(far_map_file_, cells_, manifest_.far_map, files_.mapped); })) return;
-  for (std::size_t place = 0; place < static_cast<std::size_t>(cells_.size()); ++place)
-    if (files_.has_far_map(place)) mapped_cells_.push_back(cells_.cell_at(place));
-}
-
-std::optional<std::uint64_t> BlockCheck::triangles() const {
-  if (!tiles_) return std::nullopt;
-  std::uint64_t count = 0;
-  for (std::size_t place = 0; place < static_cast<std::size_t>(cells_.size()); ++place)
-    count += tiles_->tile(cells_.cell_at(place)).mesh.triangles.size();
-  return count;
-}
-
-std::optional<BlockDamage> BlockCheck::check_far_map(Cell cell) const {
-  try {
-    read_far_map(cell);
-    return std::nullopt;
-  } catch (const PackageDamaged& error) {
-    return BlockDamage{far_map_file_.name, cell, error.what()};
-  }
-}
-
-/// What the map is measured by comes from the tiles; where these are damaged, any will do.
-void BlockCheck::read_far_map(Cell cell) const {
-  const package::FarMapShape& shape = manifest_.far_map;
-  if (shape.is_box()) {
-    (void)far_maps_->read_box(cell, tiles_ ? tiles_->tile(cell).cell->far_map_top : 1.0F);
-    return;
-  }
-  const bool has_levels = tiles_ && tiles_->has_far_cells();
-  FarHorizon map{ReceiverPatches(manifest_.grid.cell_edge_m, shape.squares_per_edge,
-                                 has_levels ? tiles_->levels_m(cell, shape.layers) : std::vector<float>(shape.layers)),
-                 AzimuthBins{shape.azimuth_bins},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {}};
-  far_maps_->read_slopes(cell, map);
 }
 
 }  // namespace farlod

@@ -5,14 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
-#include <list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -21,32 +18,12 @@
 #include "package/far_map.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/far_terrain.hpp"
+#include "package/least_recently_used.hpp"
 #include "package/manifest.hpp"
 #include "package/package_folder.hpp"
 #include "package/pixel_heights.hpp"
 
 namespace farlod {
-
-/// Decides which items stay in memory when not all of them fit: the least recently used are evicted. It only counts; the caller
-/// loads and releases the items.
-///   (1) the items that are kept hold no more bytes than the limit together, unless it is a single item
-///   (2) the item that was used last is kept
-class LruCache {
- public:
-  /// Without a call there is no limit. What is too much now is evicted with the next use.
-  void keep_at_most(std::uint64_t bytes) { limit_bytes_ = bytes; }
-  /// An item is used, and is kept from now on. Returns the items that are evicted for it, the longest unused first.
-  [[nodiscard]] std::vector<std::size_t> use(std::size_t item, std::uint64_t bytes);
-
- private:
-  struct Kept {
-    std::size_t item;
-    std::uint64_t bytes;
-  };
-  std::uint64_t limit_bytes_ = std::numeric_limits<std::uint64_t>::max(), bytes_ = 0;
-  std::list<Kept> by_use_;  ///< the last used first
-  std::unordered_map<std::size_t, std::list<Kept>::iterator> entries_;
-};
 
 /// A package that is not on disk: farlod-pack tries far maps out before it writes any.
 struct PackageInMemory {
@@ -58,8 +35,8 @@ struct PackageInMemory {
 
 /// A package, usually on disk. Blocks are mapped and checked against their checksums when they are first asked for, and kept in
 /// memory as far as there is room. One that was not asked for the longest gives its memory to the next: what was handed out of it
-/// stays where it is and readable, since the mapping stays, and comes from the disk again when somebody reads it. All questions
-/// may be asked from many threads.
+/// stays where it is and readable, since the mapping stays, and comes from the disk again when somebody reads it. What is made
+/// and not read, of natural relief, lasts as long as somebody has a view of it. All questions may be asked from many threads.
 class PackageReader {
  public:
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a
@@ -79,9 +56,10 @@ class PackageReader {
 
   /// What the manifest says of the block that owns a cell of the grid; the cell must exist.
   [[nodiscard]] const package::BlockFiles& files_of(Cell cell) const;
-  /// The block that owns a cell of the grid; the cell must exist.
+  /// The block that owns a cell of the grid, as its file has it; the cell must exist.
   [[nodiscard]] const BlockTiles& block_tiles(Cell cell) const;
-  [[nodiscard]] TileView tile(Cell cell) const { return block_tiles(cell).tile(cell); }
+  /// The tile of a cell of the grid, with the squares of pixels that its file lacks (ReliefTiles); the cell must exist.
+  [[nodiscard]] TileView tile(Cell cell) const;
   /// The least z_low_m and the greatest z_high_m of all cells; low > high where there is no vertex. Reads the records of the
   /// cells alone, without the checksums of their files.
   [[nodiscard]] std::pair<float, float> z_range_m() const;

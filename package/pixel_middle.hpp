@@ -23,6 +23,11 @@ struct FourPixels {
   [[nodiscard]] std::size_t fold() const {
     return std::abs(height_m[0] - height_m[2]) <= std::abs(height_m[1] - height_m[3]) ? 0 : 1;
   }
+  /// The third corner of the triangle at side k of a whole surface that folds from pixel `fold` to the one opposite.
+  [[nodiscard]] static constexpr std::size_t third(std::size_t fold, std::size_t k) {
+    const bool begins_at_fold = k == fold || k == fold + 2;
+    return begins_at_fold ? (k + 2) % 4 : before(k);
+  }
 };
 
 /// The surface of each of four pixels at the corner that they share.

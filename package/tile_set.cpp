@@ -25,8 +25,8 @@ void TilePages::let_go() const {
 }
 
 std::uint64_t TileSet::triangle_count() const {
-  std::uint64_t count = 0;
-  for (const Tile& tile : tiles) count += tile.triangles.size();
+  std::uint64_t count = 2 * squares_of_readers;
+  for (const Tile& tile : tiles) count += tile.stored_triangles().size();
   return count;
 }
 

@@ -72,7 +72,17 @@ struct Tile {
   float z_low_m = std::numeric_limits<float>::infinity();
   float z_high_m = -std::numeric_limits<float>::infinity();
   float ground_at_centre_m = 0.0F;
+  /// How many triangles and edges, the last ones, are not stored, since readers make them (ReliefTiles).
+  struct OfReaders {
+    std::size_t triangles = 0, edges = 0;
+  } of_readers;
 
+  [[nodiscard]] std::span<const Triangle> stored_triangles() const {
+    return {triangles.data(), triangles.size() - of_readers.triangles};
+  }
+  [[nodiscard]] std::span<const HorizonEdge> stored_edges() const {
+    return {horizon_edges.data(), horizon_edges.size() - of_readers.edges};
+  }
   [[nodiscard]] MeshView mesh() const { return {vertices, triangles}; }
   /// Adds a convex polygon as a fan of triangles.
   void add_polygon(const std::vector<Point3f>& polygon, std::uint32_t surface);
@@ -126,9 +136,12 @@ struct TileSet {
   TileSources sources;
   std::uint64_t polygon_count = 0;     ///< surfaces of buildings
   std::uint64_t foundation_count = 0;  ///< buildings whose lowest floor was closed down to the ground
+  /// Squares of pixels, of two triangles each, that are left to readers, whether or not the tiles have them here.
+  std::uint64_t squares_of_readers = 0;
 
   [[nodiscard]] const Tile& tile(Cell c) const { return tiles[cells.index_of(c)]; }
   [[nodiscard]] Tile& tile(Cell c) { return tiles[cells.index_of(c)]; }
+  /// As a reader has them.
   [[nodiscard]] std::uint64_t triangle_count() const;
   /// Gives back the memory of what the tiles of one block hold, as far as it lies on disk, and that of the surfaces. What is
   /// asked for later is read again. May be called while others read.

@@ -106,6 +106,8 @@ class BlockSections {
     for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n)
       for (const std::uint32_t s : tiles.tile(range.cell_at(n)).triangle_surfaces)
         if (surface_numbers_.empty() || surface_numbers_.back() != s) surface_numbers_.push_back(s);
+    // Readers add triangles of the ground, even where the tiles have no others here
+    if (tiles.squares_of_readers > 0) surface_numbers_.push_back(ground_surface);
     std::sort(surface_numbers_.begin(), surface_numbers_.end());
     surface_numbers_.erase(std::unique(surface_numbers_.begin(), surface_numbers_.end()), surface_numbers_.end());
     for (const std::uint32_t number : surface_numbers_) surfaces.push_back(record_of(city_.surfaces[number]));
@@ -116,7 +118,7 @@ class BlockSections {
     CellRecord record{};
     record.i = cell.i;
     record.j = cell.j;
-    record.triangle_count = static_cast<std::uint32_t>(tile.triangles.size());
+    record.triangle_count = static_cast<std::uint32_t>(tile.stored_triangles().size());
     add_geometry(tile, record);
     add_runs(tile);
     cells.push_back(record);
@@ -177,12 +179,12 @@ class BlockSections {
   void add_geometry(const Tile& tile, CellRecord& cell) {
     SharedVertices shared;
     const auto corner = [&](std::uint32_t vertex) { return shared.number_of(tile.vertices[vertex]); };
-    for (const Triangle& t : tile.triangles) triangles.push_back(Triangle{corner(t.a), corner(t.b), corner(t.c)});
+    for (const Triangle& t : tile.stored_triangles()) triangles.push_back(Triangle{corner(t.a), corner(t.b), corner(t.c)});
     for (std::size_t role = 0; role < edge_role_count; ++role) {
       std::vector<HorizonEdge> edges;
-      std::copy_if(tile.horizon_edges.begin(), tile.horizon_edges.end(), std::back_inserter(edges),
-                   [role](const HorizonEdge& e) { return static_cast<std::size_t>(e.role) == role; });
-      const SideEdges placed = side_edges(edges, std::span(triangles).last(tile.triangles.size()), shared);
+      std::ranges::copy_if(tile.stored_edges(), std::back_inserter(edges),
+                           [role](const HorizonEdge& e) { return static_cast<std::size_t>(e.role) == role; });
+      const SideEdges placed = side_edges(edges, std::span(triangles).last(cell.triangle_count), shared);
       cell.edge_counts[role] = static_cast<std::uint32_t>(placed.sides.size());
       cell.loose_edge_count += static_cast<std::uint32_t>(placed.loose.size());
       tile_edges.insert(tile_edges.end(), placed.sides.begin(), placed.sides.end());
@@ -199,7 +201,7 @@ class BlockSections {
   }
 
   void add_runs(const Tile& tile) {
-    const TileArray<std::uint32_t>& numbers = tile.triangle_surfaces;
+    const std::span numbers(tile.triangle_surfaces.data(), tile.stored_triangles().size());
     for (std::uint32_t t = 0; t < numbers.size(); ++t) {
       const bool ends = t + 1 == numbers.size() || numbers[t + 1] != numbers[t];
       if (ends) surface_runs.push_back(SurfaceRun{row_of_surface(numbers[t]), t + 1});

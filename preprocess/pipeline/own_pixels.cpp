@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "tiles/pixel_steps.hpp"
 
@@ -24,39 +25,41 @@ std::optional<package::SurfacePixels> own_pixels_of(const ReadCity& city) {
                                 static_cast<std::uint32_t>(raster->rows)};
 }
 
-PixelHeights heights_of(const TerrainRaster& raster, double height_origin_m) {
-  const tiles::PixelSteps steps(raster);
-  PixelHeights heights;
-  heights.height_m.reserve(raster.height_m.size());
-  heights.joined.reserve(raster.height_m.size());
-  for (std::size_t row = 0, n = 0; row < raster.rows; ++row)
-    for (std::size_t column = 0; column < raster.columns; ++column, ++n) {
-      const auto& height_m = raster.height_m[n];
-      heights.height_m.push_back(height_m ? static_cast<float>(*height_m - height_origin_m)
-                                          : std::numeric_limits<float>::quiet_NaN());
-      heights.joined.push_back(static_cast<std::uint8_t>((steps.joins_east(column, row) ? JoinedPixels::east : 0) |
-                                                         (steps.joins_north(column, row) ? JoinedPixels::north : 0)));
-    }
-  return heights;
+std::optional<tiles::SquaresOfReaders> squares_of_readers(const StageSettings& settings) {
+  if (settings.choice || settings.far_map.kind == FarMapKind::box) return std::nullopt;
+  // The far maps of an area are baked from all of the surface
+  return settings.area ? tiles::SquaresOfReaders::behind : tiles::SquaresOfReaders::absent;
 }
 
-std::uint64_t walls_of(const package::SurfacePixels& pixels, const PixelHeights& heights) {
-  std::uint64_t walls = 0;
-  const auto count = [&](std::size_t n, std::size_t next, std::uint8_t side) {
-    const bool have_heights = !std::isnan(heights.height_m[n]) && !std::isnan(heights.height_m[next]);
-    if (have_heights && (heights.joined[n] & side) == 0) ++walls;
+namespace {
+
+/// Nothing where the ground is not natural relief for certain.
+std::optional<std::uint64_t> leave_out_squares(tiles::Ground& ground, const package::SurfacePixels& pixels, const Grid& grid,
+                                               tiles::SquaresOfReaders squares) {
+  const std::uint64_t walls = ground.pixel_steps().count();
+  const auto are_relief = [&](std::uint64_t count) { return package::are_natural_relief(pixels, walls, 2 * count); };
+  // Walls alone may tell, before squares are counted
+  constexpr auto most_squares = std::uint64_t{1} << 62U;
+  const std::uint64_t count = are_relief(most_squares) ? ground.leave_out_squares(grid, squares, are_relief) : 0;
+  return count > 0 ? std::optional(count) : std::nullopt;
+}
+
+}  // namespace
+
+void write_heights(const std::filesystem::path& folder, const ReadCity& city, tiles::Ground& ground, double height_origin_m,
+                   const std::optional<tiles::SquaresOfReaders>& squares, package::SurfacePixels& pixels) {
+  const TerrainRaster& raster = *city.ground.terrain;
+  if (squares) pixels.squares = leave_out_squares(ground, pixels, city.ground.grid, *squares);
+  const auto heights_of = [&](std::size_t row, std::span<float> height_m) {
+    for (std::size_t column = 0; column < raster.columns; ++column) {
+      const std::optional<float>& height = raster.height_m[row * raster.columns + column];
+      height_m[column] = height ? static_cast<float>(*height - height_origin_m) : std::numeric_limits<float>::quiet_NaN();
+    }
   };
-  for (std::size_t row = 0, n = 0; row < pixels.rows; ++row)
-    for (std::size_t column = 0; column < pixels.columns; ++column, ++n) {
-      if (column + 1 < pixels.columns) count(n, n + 1, JoinedPixels::east);
-      if (row + 1 < pixels.rows) count(n, n + pixels.columns, JoinedPixels::north);
-    }
-  return walls;
-}
-
-void write_heights(const std::filesystem::path& folder, const PixelHeights& heights, package::SurfacePixels& pixels) {
+  PixelHeightRows heights{heights_of, ground.pixel_steps().joined()};
+  if (pixels.squares) heights.in_grid = tiles::pixels_in_grid(raster, city.ground.grid.rotation);
   pixels.heights = write_pixel_heights(folder, pixels, heights);
-  pixels.walls = walls_of(pixels, heights);
+  pixels.walls = ground.pixel_steps().count();
 }
 
 }  // namespace farlod::pipeline

@@ -18,7 +18,6 @@
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/resolved_source.hpp"
-#include "ingest/files/file_format.hpp"
 #include "package/crowns_of_city.hpp"
 #include "package/sources_file.hpp"
 #include "pipeline/blocks.hpp"
@@ -142,10 +141,10 @@ class Packing {
     tiles::TreesOfCity trees;
     if (settings_.trees.any()) timed("trees", [&] { trees = trees_at(city, std::move(inventories)); });
     estimate(city, trees);
-    result.facets = city.located.city.facets().size();
     CutCity cut;
     std::optional<CrownsOfCity> crowns;
-    timed("tiles", [&] { cut.tiles = cut_tiles(std::move(city), std::move(trees), crowns); });
+    timed("tiles",
+          [&] { cut.tiles = cut_tiles(std::move(city), std::move(trees), target.unfinished().package_folder(), crowns); });
     require_no_problems();
     describe_tiles(cut.tiles);
     write_beside_blocks(target.unfinished().package_folder(), cut.tiles, crowns);
@@ -160,7 +159,6 @@ class Packing {
     package::Manifest& m = record_.result.manifest;
     m.far_terrain = write_far_terrain(folder, tiles.far_terrain);
     m.sources = write_sources(folder, std::exchange(tiles.sources, {}), sources_);
-    if (heights_) write_heights(folder, *std::exchange(heights_, {}), *m.pixels);
     if (crowns) timed("crowns", [&] { m.canopy = write_canopy(folder, *crowns); });
   }
 
@@ -168,6 +166,7 @@ class Packing {
     sources_ = sources_of(origin_, std::move(city.located.placed));
     PackedCity& result = record_.result;
     result.looks = looks_of(city);
+    result.facets = city.located.city.facets().size();
     result.street_bearing = city.ground.streets.bearing;
     result.alignment_strength = city.ground.streets.strength;
     result.skipped = std::move(city.skipped);
@@ -236,19 +235,24 @@ class Packing {
   }
 
   /// The problems found here have positions in the CRS of the package.
-  TileSet cut_tiles(ReadCity city, tiles::TreesOfCity trees, std::optional<CrownsOfCity>& crowns) {
+  TileSet cut_tiles(ReadCity city, tiles::TreesOfCity trees, const std::filesystem::path& folder,
+                    std::optional<CrownsOfCity>& crowns) {
     const std::size_t known = report_.problems().size();
     const Georeference place = city.located.georeference;
     FarTerrain far_terrain;
-    const tiles::OnGround on_ground = [&](const tiles::Ground& ground, double height_origin_m) {
+    const tiles::OnGround on_ground = [&](tiles::Ground& ground, double height_origin_m) {
       far_terrain = far_terrain_around(place, city.terrain_files, city.far_terrain_files, ground, height_origin_m);
-      if (record_.result.manifest.pixels && city.ground.terrain->covers_pixels)
-        heights_ = heights_of(*city.ground.terrain, height_origin_m);
-      if (!trees.any()) return;
+      std::optional<package::SurfacePixels>& pixels = record_.result.manifest.pixels;
+      if (pixels && city.ground.terrain->covers_pixels)
+        write_heights(folder, city, ground, height_origin_m, far_terrain.empty() ? squares_of_readers(settings_) : std::nullopt,
+                      *pixels);
+      const std::uint64_t squares = pixels ? pixels->squares.value_or(0) : 0;
+      if (!trees.any()) return squares;
       tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
       crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
       record_.result.crowns = placing.counts();
       for (const std::string& note : placing.notes()) record_.result.notes.push_back(note);
+      return squares;
     };
     TileSet tiles = tiles::cut_into_tiles(std::move(city.located), city.ground.grid, settings_.assign, city.ground.terrain,
                                           report_, run_.stop, on_ground);
@@ -346,7 +350,6 @@ class Packing {
   PackageOrigin origin_;
   CityRecord record_;
   std::vector<std::optional<SourceOfPackage>> sources_;
-  std::optional<PixelHeights> heights_;  ///< of a city that is a raster, until they are written
   std::vector<std::pair<std::string, double>> seconds_;
 };
 
@@ -387,14 +390,3 @@ PackedCity pack(const StageSettings& settings, Report& report, const RunSettings
 }
 
 }  // namespace farlod::pipeline
-
-namespace farlod {
-
-InputFormatNames input_format_names() {
-  using ingest::InputFormat, ingest::names_where;
-  return {names_where([](const InputFormat&) { return true; }, " and ", true),
-          names_where([](const InputFormat& format) { return format.is_mesh; }),
-          names_where([](const InputFormat& format) { return format.is_piped; })};
-}
-
-}  // namespace farlod

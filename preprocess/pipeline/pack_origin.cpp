@@ -13,6 +13,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/version.hpp"
+#include "ingest/files/file_format.hpp"
 #include "package/file_stamp.hpp"
 
 namespace farlod::pipeline {
@@ -224,3 +225,14 @@ void require_unchanged(const PackageOrigin& origin) {
 }
 
 }  // namespace farlod::pipeline
+
+namespace farlod {
+
+InputFormatNames input_format_names() {
+  using ingest::InputFormat, ingest::names_where;
+  return {names_where([](const InputFormat&) { return true; }, " and ", true),
+          names_where([](const InputFormat& format) { return format.is_mesh; }),
+          names_where([](const InputFormat& format) { return format.is_piped; })};
+}
+
+}  // namespace farlod

@@ -28,7 +28,7 @@ namespace {
 
 /// What is saved of a tile beside what it has many of.
 struct TileRecord {
-  std::uint64_t vertices, triangles, edges;
+  std::uint64_t vertices, triangles, edges, triangles_of_readers, edges_of_readers;
   float z_low_m, z_high_m, ground_at_centre_m;
 };
 
@@ -37,7 +37,7 @@ struct Layout {
   std::array<std::uint64_t, 7> element_bytes{sizeof(Point3f),    sizeof(Triangle),     sizeof(HorizonEdge),      sizeof(Surface),
                                              sizeof(TileRecord), sizeof(OccluderEdge), sizeof(CityHorizon::Node)};
   double height_origin_m = 0.0;
-  std::uint64_t tile_count = 0, polygon_count = 0, foundation_count = 0, has_horizon = 0;
+  std::uint64_t tile_count = 0, polygon_count = 0, foundation_count = 0, squares_of_readers = 0, has_horizon = 0;
 };
 
 constexpr const char *layout_file = "layout", *tile_records_file = "tiles", *vertices_file = "vertices",
@@ -92,8 +92,9 @@ void save_tiles(const fs::path& folder, const TileSet& tiles, const Grid& grid, 
     const CellRange cells = grid.cells_of(block);
     for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {
       const Tile& t = tiles.tile(cells.cell_at(n));
-      const TileRecord record{t.vertices.size(), t.triangles.size(), t.horizon_edges.size(),
-                              t.z_low_m,         t.z_high_m,         t.ground_at_centre_m};
+      const TileRecord record{
+          t.vertices.size(), t.triangles.size(), t.horizon_edges.size(), t.of_readers.triangles, t.of_readers.edges,
+          t.z_low_m,         t.z_high_m,         t.ground_at_centre_m};
       records.append(std::span(&record, 1));
       vertices.append(std::span<const Point3f>(t.vertices));
       triangles.append(std::span<const Triangle>(t.triangles));
@@ -147,6 +148,7 @@ void view_tiles(const fs::path& folder, const Grid& grid, TileSet& tiles) {
     t.triangles = next_of(pages->triangles, record.triangles, triangle);
     t.triangle_surfaces = next_of(pages->triangle_surfaces, record.triangles, triangle_surface);
     t.horizon_edges = next_of(pages->horizon_edges, record.edges, edge);
+    t.of_readers = {record.triangles_of_readers, record.edges_of_readers};
     t.z_low_m = record.z_low_m;
     t.z_high_m = record.z_high_m;
     t.ground_at_centre_m = record.ground_at_centre_m;
@@ -170,6 +172,7 @@ std::optional<SavedCity> SavedCity::open(const fs::path& folder, const Grid& gri
   city.tiles.height_origin_m = layout->height_origin_m;
   city.tiles.polygon_count = layout->polygon_count;
   city.tiles.foundation_count = layout->foundation_count;
+  city.tiles.squares_of_readers = layout->squares_of_readers;
   city.tiles.cells = grid.cells;
   city.tiles.tiles.resize(layout->tile_count);
   city.tiles.surfaces = PagedArray<Surface>::of_file(folder / surfaces_file);
@@ -197,6 +200,7 @@ void save_city(const fs::path& folder, const TileSet& tiles, const CityHorizon* 
   layout.tile_count = tiles.tiles.size();
   layout.polygon_count = tiles.polygon_count;
   layout.foundation_count = tiles.foundation_count;
+  layout.squares_of_readers = tiles.squares_of_readers;
   layout.has_horizon = horizon != nullptr ? 1 : 0;
   write_durably(folder / layout_file, std::as_bytes(std::span(&layout, 1)));
   write_durably(folder / city_record_file, record);

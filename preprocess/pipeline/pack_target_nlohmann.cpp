@@ -43,11 +43,13 @@ std::optional<package::FileStamp> stamp_from(const Json& j) {
 }
 
 Json json_of(const package::SurfacePixels& p) {
-  return {p.north_west_m.x, p.north_west_m.y, p.step_m, p.columns, p.rows, json_of(p.heights), p.walls ? Json(*p.walls) : Json()};
+  const auto count = [](const std::optional<std::uint64_t>& n) { return n ? Json(*n) : Json(); };
+  return {p.north_west_m.x, p.north_west_m.y, p.step_m, p.columns, p.rows, json_of(p.heights), count(p.walls), count(p.squares)};
 }
 package::SurfacePixels pixels_from(const Json& j) {
   package::SurfacePixels pixels{{j.at(0), j.at(1)}, j.at(2), j.at(3), j.at(4), stamp_from(j.at(5)), {}};
   if (!j.at(6).is_null()) pixels.walls = j.at(6).get<std::uint64_t>();
+  if (!j.at(7).is_null()) pixels.squares = j.at(7).get<std::uint64_t>();
   return pixels;
 }
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <oneapi/tbb/parallel_pipeline.h>
-
 #include <cstddef>
+#include <functional>
+#include <memory>
 #include <stop_token>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,46 +17,63 @@ namespace farlod::tiles {
 /// Objects that one thread cuts in one batch, and batches that may wait to be placed. This bounds the memory of what waits.
 inline constexpr std::size_t batch_size = 256, batches_at_once = 16;
 
+/// Something that is made, and then placed.
+class MadeBatch {
+ public:
+  MadeBatch() = default;
+  MadeBatch(const MadeBatch&) = delete;
+  MadeBatch& operator=(const MadeBatch&) = delete;
+  virtual ~MadeBatch() = default;
+  virtual void make() = 0;
+  virtual void place() = 0;
+};
+
+/// Makes and places the batches that `next` hands out, until it hands out none. They are made in parallel, and placed in order,
+/// one at a time.
+void make_and_place_batches(const std::function<std::unique_ptr<MadeBatch>()>& next);
+
 /// Calls place(item, make(item)) for each item that `next` hands out: some at a time, none at the end. The calls of `make` run in
 /// parallel; those of `place` run in order, one at a time.
 template <class Next, class Make, class Place>
 void make_and_place(const Next& next, const std::stop_token& stop, const Make& make, const Place& place) {
-  namespace tbb = oneapi::tbb;
   using Items = decltype(next());
-  using Batch = std::pair<Items, std::vector<decltype(make(std::declval<Items>().front()))>>;
-  const auto begin_batch = [&](tbb::flow_control& flow) {
-    Items items = next();
-    if (items.empty()) flow.stop();
-    return items;
-  };
-  const auto make_batch = [&](Items items) {
-    Batch batch{std::move(items), {}};
-    for (const auto& item : batch.first) {
-      throw_if_cancelled(stop);
-      batch.second.push_back(make(item));
+  struct Batch final : MadeBatch {
+    Batch(Items these, const std::stop_token& ends, const Make& by, const Place& in)
+        : items(std::move(these)), stop_asked(ends), make_one(by), place_one(in) {}
+    void make() override {
+      for (const auto& item : items) {
+        throw_if_cancelled(stop_asked);
+        made.push_back(make_one(item));
+      }
     }
-    return batch;
+    void place() override {
+      for (std::size_t k = 0; k < made.size(); ++k) place_one(items[k], made[k]);
+    }
+
+    Items items;
+    std::vector<std::invoke_result_t<const Make&, typename Items::const_reference>> made;
+    const std::stop_token& stop_asked;
+    const Make& make_one;
+    const Place& place_one;
   };
-  const auto place_batch = [&](Batch batch) {
-    for (std::size_t k = 0; k < batch.second.size(); ++k) place(batch.first[k], batch.second[k]);
-  };
-  tbb::parallel_pipeline(batches_at_once, tbb::make_filter<void, Items>(tbb::filter_mode::serial_in_order, begin_batch) &
-                                              tbb::make_filter<Items, Batch>(tbb::filter_mode::parallel, make_batch) &
-                                              tbb::make_filter<Batch, void>(tbb::filter_mode::serial_in_order, place_batch));
+  make_and_place_batches([&]() -> std::unique_ptr<MadeBatch> {
+    Items items = next();
+    return items.empty() ? nullptr : std::make_unique<Batch>(std::move(items), stop, make, place);
+  });
 }
 
-/// Hands out the numbers below `count`.
+/// Hands out the numbers from `begin` to before `end`.
 class Numbers {
  public:
-  explicit Numbers(std::size_t count) : count_(count) {}
+  Numbers(std::size_t begin, std::size_t end) : end_(end), next_(begin) {}
   std::vector<std::size_t> next(std::size_t most) {
     std::vector<std::size_t> numbers;
-    for (; numbers.size() < most && next_ < count_; ++next_) numbers.push_back(next_);
+    for (; numbers.size() < most && next_ < end_; ++next_) numbers.push_back(next_);
     return numbers;
   }
 
  private:
-  std::size_t count_, next_ = 0;
+  std::size_t end_, next_;
 };
 
 }  // namespace farlod::tiles

@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "base/ground_contact.hpp"
 #include "base/paging/paged_array.hpp"
 #include "farlod/box.hpp"
@@ -55,7 +57,7 @@ class Ground {
   /// Points outside of the rectangle shape the ground at its edge. Without points the ground is flat at height 0.
   Ground(PagedArray<Point3d> points_grid, const Box2d& rectangle, GroundExtent extent = GroundExtent::rectangle);
   /// Lasts no longer than the raster. The rotation is that of the grid.
-  Ground(const TerrainRaster& surface_model, const PixelSteps& steps, const GridRotation& rotation);
+  Ground(const TerrainRaster& surface_model, PixelSteps steps, const GridRotation& rotation);
   Ground(Ground&&) noexcept;
   Ground& operator=(Ground&&) noexcept;
   ~Ground();
@@ -68,8 +70,14 @@ class Ground {
   [[nodiscard]] bool is_above(const Point3d& p_grid, double height_m) const;
   /// The lowest of all corners of its triangles; nothing when it has none.
   [[nodiscard]] std::optional<double> lowest_m() const;
-  /// The edges of a surface model; of a network, those that its faces have (GroundFace::horizon_edges) are all.
-  [[nodiscard]] const PagedArray<HorizonSegment>* edges_of_surface() const;
+  /// What a surface model is made of, made when it is first asked for; null for a network, whose faces have all of its edges
+  /// (GroundFace::horizon_edges).
+  [[nodiscard]] const SteppedSurface* surface() const;
+  /// PixelSteps::leave_out_squares of a surface model, before its surface is asked for, and what becomes of them.
+  std::uint64_t leave_out_squares(const Grid& grid, SquaresOfReaders squares,
+                                  const std::function<bool(std::uint64_t)>& are_enough);
+  /// Those of a surface model.
+  [[nodiscard]] const PixelSteps& pixel_steps() const;
 
  private:
   friend class GroundFaces;

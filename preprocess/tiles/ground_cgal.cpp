@@ -116,9 +116,9 @@ Ground::Ground(PagedArray<Point3d> points, const Box2d& rectangle, GroundExtent 
   // CGAL ignores a corner at the place of an existing point
   for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }
-Ground::Ground(const TerrainRaster& surface_model, const PixelSteps& steps, const GridRotation& rotation)
+Ground::Ground(const TerrainRaster& surface_model, PixelSteps steps, const GridRotation& rotation)
     : impl_(std::make_unique<Impl>()) {
-  impl_->model.emplace(surface_model, steps, rotation);
+  impl_->model.emplace(surface_model, std::move(steps), rotation);
 }
 Ground::Ground(Ground&&) noexcept = default;
 Ground& Ground::operator=(Ground&&) noexcept = default;
@@ -162,8 +162,17 @@ std::optional<double> Ground::lowest_m() const {
   return lowest_m;
 }
 
-const PagedArray<HorizonSegment>* Ground::edges_of_surface() const {
-  return impl_->model ? &impl_->model->surface().edges : nullptr;
+const SteppedSurface* Ground::surface() const { return impl_->model ? &impl_->model->surface() : nullptr; }
+
+std::uint64_t Ground::leave_out_squares(const Grid& grid, SquaresOfReaders squares,
+                                        const std::function<bool(std::uint64_t)>& are_enough) {
+  FARLOD_EXPECTS(impl_->model.has_value());
+  return impl_->model->leave_out_squares(grid, squares, are_enough);
+}
+
+const PixelSteps& Ground::pixel_steps() const {
+  FARLOD_EXPECTS(impl_->model.has_value());
+  return impl_->model->steps();
 }
 
 std::vector<HorizonSegment> GroundFace::horizon_edges() const {

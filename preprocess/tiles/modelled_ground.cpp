@@ -5,13 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "base/expects.hpp"
 
 namespace farlod::tiles {
 
-ModelledGround::ModelledGround(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation)
-    : raster_(raster), rotation_(rotation), surface_(stepped_surface(raster, steps, rotation)) {
+ModelledGround::ModelledGround(const TerrainRaster& raster, PixelSteps steps, const GridRotation& rotation)
+    : raster_(raster), steps_(std::move(steps)), rotation_(rotation) {
   for (const auto& height_m : raster.height_m)
     if (height_m) lowest_m_ = std::min<double>(lowest_m_.value_or(*height_m), *height_m);
+}
+
+std::uint64_t ModelledGround::leave_out_squares(const Grid& grid, SquaresOfReaders squares,
+                                                const std::function<bool(std::uint64_t)>& are_enough) {
+  FARLOD_EXPECTS(!surface_);
+  squares_ = squares;
+  return steps_.leave_out_squares(raster_, grid, are_enough);
+}
+
+const SteppedSurface& ModelledGround::surface() const {
+  if (!surface_) surface_ = stepped_surface(raster_, steps_, rotation_, squares_);
+  return *surface_;
 }
 
 double ModelledGround::height_at(Point2d p_grid) const {

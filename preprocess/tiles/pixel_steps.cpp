@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tiles/pixel_steps.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "tiles/pixel_square.hpp"
 
 namespace farlod::tiles {
 namespace {
@@ -50,6 +55,39 @@ void PixelSteps::join(const TerrainRaster& raster, const Line& line) {
     before_m = here_m;
     here_m = after_m;
   }
+}
+
+PixelsInGrid pixels_in_grid(const TerrainRaster& raster, const GridRotation& rotation) {
+  // What the rotation makes of a vector along the x axis: its cosine and its sine, to the bit
+  const Point2d turned = rotation.grid_from_city(Point2d{1.0, 0.0});
+  return {raster.first.x, raster.first.y, raster.step_m.x, turned.x, turned.y};
+}
+
+std::uint64_t PixelSteps::leave_out_squares(const TerrainRaster& raster, const Grid& grid,
+                                            const std::function<bool(std::uint64_t)>& are_enough) {
+  const PixelsInGrid in_grid = pixels_in_grid(raster, grid.rotation);
+  const auto cells_of_row = [&](std::size_t row) {
+    std::vector<std::optional<Cell>> cells(columns_);
+    for (std::size_t column = 0; column < columns_; ++column) cells[column] = in_grid.cell_around(column, row, grid);
+    return cells;
+  };
+  // Beside what is joined, which other rows ask for meanwhile
+  std::vector<std::uint8_t> squares(joined_.size(), 0);
+  oneapi::tbb::parallel_for(std::size_t{1}, raster.rows, [&](std::size_t north_row) {
+    const std::size_t row = north_row - 1;
+    const std::vector<std::optional<Cell>> south = cells_of_row(row), north_cells = cells_of_row(north_row);
+    for (std::size_t column = 0; column + 1 < columns_; ++column) {
+      const std::optional<Cell>& cell = south[column];
+      if (!cell || south[column + 1] != cell || north_cells[column] != cell || north_cells[column + 1] != cell) continue;
+      const PixelSquare square(raster, *this, column + 1, north_row);
+      if (!square.is_whole() || square.is_level[0]) continue;
+      squares[at(column, row)] = square.fold() == 0 ? PixelSquares::left_out : PixelSquares::left_out | PixelSquares::folds_aside;
+    }
+  });
+  const auto count = static_cast<std::uint64_t>(squares.size() - static_cast<std::size_t>(std::ranges::count(squares, 0)));
+  if (!are_enough(count)) return 0;
+  for (std::size_t n = 0; n < squares.size(); ++n) joined_[n] |= squares[n];
+  return count;
 }
 
 }  // namespace farlod::tiles

@@ -4,9 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/city_model.hpp"
+#include "package/pixel_heights.hpp"
 
 namespace farlod::tiles {
 
@@ -29,8 +33,19 @@ class PixelSteps {
   /// Sides of pixels between two heights.
   [[nodiscard]] std::size_t count() const { return count_; }
 
+  /// Leaves those squares to readers (PixelSquares) that are whole, not level, and lie within one cell of the grid, where
+  /// `are_enough(count)`. Tells how many are left out. The raster is the same, and its pixels are squares.
+  std::uint64_t leave_out_squares(const TerrainRaster& raster, const Grid& grid,
+                                  const std::function<bool(std::uint64_t)>& are_enough);
+  /// The square north-east of a pixel; none is left out beyond the raster.
+  [[nodiscard]] bool is_left_out(std::size_t column, std::size_t row) const {
+    return (joined_[at(column, row)] & PixelSquares::left_out) != 0;
+  }
+  /// JoinedPixels and PixelSquares of each pixel, row by row from the south.
+  [[nodiscard]] std::span<const std::uint8_t> joined() const { return joined_; }
+
  private:
-  static constexpr std::uint8_t east = 1, north = 2;
+  static constexpr std::uint8_t east = JoinedPixels::east, north = JoinedPixels::north;
   [[nodiscard]] std::size_t at(std::size_t column, std::size_t row) const { return row * columns_ + column; }
   struct Line;
   void join(const TerrainRaster& raster, const Line& line);
@@ -39,5 +54,8 @@ class PixelSteps {
   std::vector<std::uint8_t> joined_;
   std::size_t count_ = 0;
 };
+
+/// Where the pixels of such a raster lie in a grid that is turned so.
+[[nodiscard]] PixelsInGrid pixels_in_grid(const TerrainRaster& raster, const GridRotation& rotation);
 
 }  // namespace farlod::tiles

@@ -21,8 +21,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation)
-      : raster_(raster), steps_(steps), at_(raster, rotation), walls_(at_, raster.columns, surface_) {}
+  SurfaceMaker(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation, SquaresOfReaders squares)
+      : raster_(raster), steps_(steps), squares_(squares), at_(raster, rotation), walls_(at_, raster.columns, surface_) {}
 
   SteppedSurface make() {
     std::vector<PixelSquare> below, row;
@@ -41,6 +41,10 @@ class SurfaceMaker {
     }
     areas_.end([this](const LevelAreas::Rectangle& r) { add_area(r); });
     walls_.end();
+    surface_.stored_triangles = surface_.triangles.size();
+    surface_.stored_edges = surface_.edges.size();
+    surface_.triangles.append({of_readers_.triangles.data(), of_readers_.triangles.size()});
+    surface_.edges.append({of_readers_.edges.data(), of_readers_.edges.size()});
     return std::move(surface_);
   }
 
@@ -49,11 +53,24 @@ class SurfaceMaker {
 
   void add_triangle(const Point3d& a, const Point3d& b, const Point3d& c) { surface_.triangles.push_back({a, b, c}); }
 
-  void add_edge(const Point3d& a, const Point3d& b, const Point3d& left, const Point3d& right) {
+  static void add_edge(const Point3d& a, const Point3d& b, const Point3d& left, const Point3d& right, SteppedSurface& to) {
     EdgeSides edge(a, b);
     edge.add(left, FacetLook::up);
     edge.add(right, FacetLook::up);
-    if (edge.can_be_horizon()) surface_.edges.push_back({edge.edge(), edge.adjacent()});
+    if (edge.can_be_horizon()) to.edges.push_back({edge.edge(), edge.adjacent()});
+  }
+  void add_edge(const Point3d& a, const Point3d& b, const Point3d& left, const Point3d& right) {
+    add_edge(a, b, left, right, surface_);
+  }
+
+  [[nodiscard]] bool is_left_out(const PixelSquare& s) const {
+    const auto column = static_cast<std::size_t>(s.middle.x / 2), row = static_cast<std::size_t>(s.middle.y / 2);
+    return column > 0 && row > 0 && steps_.is_left_out(column - 1, row - 1);
+  }
+  /// Where something goes that readers make, or not; nothing where it goes nowhere.
+  [[nodiscard]] SteppedSurface* place_of(bool left_out) {
+    if (!left_out) return &surface_;
+    return squares_ == SquaresOfReaders::behind ? &of_readers_ : nullptr;
   }
 
   [[nodiscard]] Point3d centre(const PixelSquare& s, std::size_t k) const { return at_(s.centre_of(k), s.height_m[k]); }
@@ -69,10 +86,7 @@ class SurfaceMaker {
 
   void add_square(const PixelSquare& s) {
     if (s.is_whole() && !s.is_level[0]) {
-      const std::size_t a = s.fold(), b = a + 1, c = a + 2, d = PixelSquare::next(c);
-      add_triangle(centre(s, a), centre(s, b), centre(s, c));
-      add_triangle(centre(s, a), centre(s, c), centre(s, d));
-      add_edge(centre(s, a), centre(s, c), centre(s, d), centre(s, b));
+      if (SteppedSurface* const to = place_of(is_left_out(s))) add_whole_square(s, *to);
       return;
     }
     for (std::size_t k = 0; k < 4; ++k) {
@@ -85,6 +99,13 @@ class SurfaceMaker {
     // From south to north, and from west to east, so that pieces continue each other
     for (const std::size_t k : {0U, 2U, 3U, 1U})
       if (!s.joined[k] && (s.has_height[k] || s.has_height[PixelSquare::next(k)])) add_torn(s, k);
+  }
+
+  void add_whole_square(const PixelSquare& s, SteppedSurface& to) const {
+    const std::size_t a = s.fold(), b = a + 1, c = a + 2, d = PixelSquare::next(c);
+    to.triangles.push_back({centre(s, a), centre(s, b), centre(s, c)});
+    to.triangles.push_back({centre(s, a), centre(s, c), centre(s, d)});
+    add_edge(centre(s, a), centre(s, c), centre(s, d), centre(s, b), to);
   }
 
   /// The triangles that begin at pixel k, of those around the middle.
@@ -116,9 +137,7 @@ class SurfaceMaker {
   /// The third corner of the triangle of `s` at its side k, or at that half of it which belongs to pixel `of`.
   [[nodiscard]] Point3d third(const PixelSquare& s, std::size_t k, std::size_t of) const {
     if (!s.is_whole()) return middle(s, of);
-    const std::size_t a = s.fold();
-    const bool begins_at_fold = k == a || k == a + 2;
-    return centre(s, begins_at_fold ? (k + 2) % 4 : PixelSquare::before(k));
+    return centre(s, PixelSquare::third(s.fold(), k));
   }
 
   /// The edges on the side between two squares: side k of the first one.
@@ -126,7 +145,8 @@ class SurfaceMaker {
     const std::size_t l = (k + 2) % 4, a = k, b = PixelSquare::next(k), a_beyond = PixelSquare::next(l), b_beyond = l;
     const auto is_level = [&](std::size_t here, std::size_t there) { return s.is_level[here] && beyond.is_level[there]; };
     if (s.joined[k]) {
-      if (!is_level(a, a_beyond)) add_edge(centre(s, a), centre(s, b), third(beyond, l, a_beyond), third(s, k, a));
+      SteppedSurface* const to = is_level(a, a_beyond) ? nullptr : place_of(is_left_out(s) && is_left_out(beyond));
+      if (to != nullptr) add_edge(centre(s, a), centre(s, b), third(beyond, l, a_beyond), third(s, k, a), *to);
       return;
     }
     if (s.has_height[a] && !is_level(a, a_beyond)) add_edge(centre(s, a), after(s, a), middle(beyond, a_beyond), middle(s, a));
@@ -154,8 +174,9 @@ class SurfaceMaker {
 
   const TerrainRaster& raster_;
   const PixelSteps& steps_;
+  SquaresOfReaders squares_;
   PixelPlaces at_;
-  SteppedSurface surface_;
+  SteppedSurface surface_, of_readers_;
   LevelAreas areas_;
   std::array<std::vector<double>, 2> level_rows_;  ///< of quarters: below the middle of squares, and above it
   WallLines walls_;
@@ -163,8 +184,9 @@ class SurfaceMaker {
 
 }  // namespace
 
-SteppedSurface stepped_surface(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation) {
-  return SurfaceMaker(raster, steps, rotation).make();
+SteppedSurface stepped_surface(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation,
+                               SquaresOfReaders squares) {
+  return SurfaceMaker(raster, steps, rotation, squares).make();
 }
 
 }  // namespace farlod::tiles

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "base/frame.hpp"
 #include "base/paging/paged_array.hpp"
@@ -22,8 +24,18 @@ namespace farlod::tiles {
 struct SteppedSurface {
   PagedArray<std::array<Point3d, 3>> triangles;  ///< grid frame; counter-clockwise seen from above, but for walls
   PagedArray<HorizonSegment> edges;
+  /// How many of them, the first ones, are not left to readers.
+  std::size_t stored_triangles = 0, stored_edges = 0;
 };
 
-[[nodiscard]] SteppedSurface stepped_surface(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation);
+/// What becomes of the squares that are left to readers (PixelSteps::leave_out_squares): of their triangles, of their folds, and
+/// of the sides between two of them.
+enum class SquaresOfReaders : std::uint8_t {
+  behind,  ///< they come behind the rest
+  absent   ///< they are missing
+};
+
+[[nodiscard]] SteppedSurface stepped_surface(const TerrainRaster& raster, const PixelSteps& steps, const GridRotation& rotation,
+                                             SquaresOfReaders squares = SquaresOfReaders::behind);
 
 }  // namespace farlod::tiles

@@ -143,7 +143,9 @@ void TileFiller::fill_mesh_of_block(std::size_t block, const std::vector<Counts>
   }
   for (std::size_t n = 0; n < filled.size(); ++n) {
     const std::size_t number = grid_.cells.index_of(cells.cell_at(n));
-    view_mesh(begins[number], filled[n], tiles.tiles[number]);
+    Tile& tile = tiles.tiles[number];
+    view_mesh(begins[number], filled[n], tile);
+    if (!stored_polygons_.empty()) tile.of_readers.triangles = filled[n].triangles - stored_polygons_[number].triangles;
   }
   let_go(polygons_);
 }
@@ -191,6 +193,7 @@ void TileFiller::fill_edges_of_block(std::size_t block, const std::vector<Counts
     const std::size_t number = grid_.cells.index_of(cells.cell_at(n));
     tiles.tiles[number].horizon_edges =
         TileArray<HorizonEdge>::view_of({pages_->horizon_edges.data() + begins[number].edges, filled[n]});
+    if (!stored_edges_.empty()) tiles.tiles[number].of_readers.edges = filled[n] - stored_edges_[number].edges;
   }
   let_go(edges_);
 }

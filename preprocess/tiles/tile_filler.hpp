@@ -49,6 +49,9 @@ class TileFiller {
   /// Convex; it becomes a fan of triangles, as with Tile::add_polygon. The cell must be one of the grid.
   void add_polygon(Cell cell, std::span<const Point3f> polygon, std::uint32_t surface);
   void add_edge(Cell cell, const HorizonEdge& edge);
+  /// What comes from now on is left to readers: Tile::of_readers.
+  void end_stored_polygons() { stored_polygons_ = counts_; }
+  void end_stored_edges() { stored_edges_ = counts_; }
 
   /// Fills the meshes of the tiles, one for each cell of the grid. Called again once more polygons have been added.
   void fill_meshes(TileSet& tiles);
@@ -71,7 +74,8 @@ class TileFiller {
   const Grid& grid_;
   std::vector<Block> blocks_;
   std::size_t blocks_in_row_ = 0;
-  std::vector<Counts> counts_;  ///< of each tile, in the order of CellRange::index_of
+  std::vector<Counts> counts_;                          ///< of each tile, in the order of CellRange::index_of
+  std::vector<Counts> stored_polygons_, stored_edges_;  ///< the same of what is stored; empty where all is
   BlockNotes polygons_, edges_;
   std::vector<std::uint32_t> words_;  ///< of the polygon that is added
   std::shared_ptr<TilePages> pages_ = std::make_shared<TilePages>();

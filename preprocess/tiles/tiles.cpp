@@ -50,12 +50,12 @@ class TileCutter {
   }
 
   TileSet run(Report& report, const OnGround& on_ground) {
-    if (on_ground) on_ground(*ground_, tiles_.height_origin_m);
+    if (on_ground) tiles_.squares_of_readers = on_ground(*ground_, tiles_.height_origin_m);
     place_ground();
     place_ground_edges();
     note_ground_heights();
     const auto buildings = city_.buildings();
-    Numbers numbers(buildings.size());
+    Numbers numbers(0, buildings.size());
     make_and_place([&] { return numbers.next(batch_size); }, stop_,
                    [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
                    [&](std::size_t n, BuildingPieces& pieces) {
@@ -96,13 +96,30 @@ class TileCutter {
   void place_ground() {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
     GroundFaces faces(*ground_);
-    make_and_place([&] { return faces.next(batch_size); }, stop_,
-                   [&](const GroundFace& face) { return cut_within(face.corners, grid_, tiles_.height_origin_m); },
-                   [&](const GroundFace& face, const std::vector<CellPiece>& pieces) {
-                     const auto& [a, b, c] = face.corners;
-                     tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
-                     for (const CellPiece& piece : pieces) place_ground_piece(piece);
-                   });
+    // What is stored of a surface comes before what is left to readers
+    const SteppedSurface* const surface = ground_->surface();
+    std::size_t left = surface != nullptr ? surface->stored_triangles : std::numeric_limits<std::size_t>::max();
+    const auto next = [&] {
+      auto batch = faces.next(std::min(batch_size, left));
+      left -= batch.size();
+      return batch;
+    };
+    place_faces(next);
+    if (surface == nullptr) return;
+    filler_.end_stored_polygons();
+    left = surface->triangles.size() - surface->stored_triangles;
+    place_faces(next);
+  }
+
+  template <class Next>
+  void place_faces(const Next& next) {
+    make_and_place(
+        next, stop_, [&](const GroundFace& face) { return cut_within(face.corners, grid_, tiles_.height_origin_m); },
+        [&](const GroundFace& face, const std::vector<CellPiece>& pieces) {
+          const auto& [a, b, c] = face.corners;
+          tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
+          for (const CellPiece& piece : pieces) place_ground_piece(piece);
+        });
   }
 
   void place_ground_piece(const CellPiece& piece) {
@@ -112,16 +129,21 @@ class TileCutter {
   }
 
   void place_ground_edges() {
-    if (const auto* const edges = ground_->edges_of_surface()) {
-      Numbers numbers(edges->size());
-      make_and_place([&] { return numbers.next(batch_size); }, stop_,
-                     [&](std::size_t n) { return cut_edge((*edges)[n], grid_, tiles_.height_origin_m); },
-                     [&](std::size_t, const std::vector<CellEdge>& pieces) { place_on_ground(pieces); });
+    if (const SteppedSurface* const surface = ground_->surface()) {
+      place_edges(surface->edges, Numbers(0, surface->stored_edges));
+      filler_.end_stored_edges();
+      place_edges(surface->edges, Numbers(surface->stored_edges, surface->edges.size()));
       return;
     }
     GroundFaces faces(*ground_);
     make_and_place([&] { return faces.next(batch_size); }, stop_, [&](const GroundFace& face) { return cut_edges_of(face); },
                    [&](const GroundFace&, const std::vector<CellEdge>& pieces) { place_on_ground(pieces); });
+  }
+
+  void place_edges(const PagedArray<HorizonSegment>& edges, Numbers numbers) {
+    make_and_place([&] { return numbers.next(batch_size); }, stop_,
+                   [&](std::size_t n) { return cut_edge(edges[n], grid_, tiles_.height_origin_m); },
+                   [&](std::size_t, const std::vector<CellEdge>& pieces) { place_on_ground(pieces); });
   }
 
   void place_on_ground(const std::vector<CellEdge>& pieces) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -17,8 +18,9 @@ namespace farlod::tiles {
 /// A facet farther than this from its plane is reported (the default tolerance of val3dity).
 inline constexpr double planarity_tolerance_m = 0.01;
 
-/// Called once, when the ground is known and before a building is cut. Heights in the tiles count from `height_origin_m`.
-using OnGround = std::function<void(const Ground& ground, double height_origin_m)>;
+/// Called once, when the ground is known and before it or a building is cut. Heights in the tiles count from `height_origin_m`.
+/// Returns how many squares of the ground it leaves to readers (Ground::leave_out_squares).
+using OnGround = std::function<std::uint64_t(Ground& ground, double height_origin_m)>;
 
 /// Triangulates the city and its ground and cuts them into the cells of the grid.
 ///   (1) the tiles partition the city: the exact area vectors of a facet's pieces sum to its own, and no piece lies in two tiles

@@ -28,7 +28,7 @@ Point3d projected(const package::Manifest& m, Cell cell, const Point3f& p_cell) 
 /// In the middle of the cell, above the ground, or above the lowest point of the tile where there is no ground.
 Point3f eye_in(const PackageReader& reader, Cell cell) {
   const auto middle = static_cast<float>(0.5 * reader.grid().cell_edge_m);
-  const package::CellRecord& record = *reader.tile(cell).cell;
+  const package::CellRecord record = *reader.tile(cell).cell;
   const float low_m = record.z_low_m <= record.z_high_m ? record.z_low_m : 0.0F;
   const float ground_m = PointLocator(reader, cell).at(middle, middle).ground_m().value_or(low_m);
   return {middle, middle, ground_m + eye_height_m};
@@ -80,7 +80,7 @@ FarView horizon_view(const PackageReader& reader, Cell cell) {
 
 FarView box_view(const PackageReader& reader, Cell cell) {
   const package::Manifest& m = reader.manifest();
-  const package::CellRecord& record = *reader.tile(cell).cell;
+  const package::CellRecord record = *reader.tile(cell).cell;
   FarView view{projected(m, cell, {record.capture_x_m, record.capture_y_m, record.capture_z_m}), {}, {}};
   const BoxFarMap map = reader.box_far_map(cell);
   FarBoxView& box = view.box;

@@ -65,8 +65,7 @@ class PartsOfCity {
  public:
   explicit PartsOfCity(const package::Manifest& manifest) : manifest_(manifest) {}
 
-  void add(const BlockTiles& block, Cell cell) {
-    const TileView tile = block.tile(cell);
+  void add(const BlockTiles& block, const TileView& tile, Cell cell) {
     numbers_.assign(tile.mesh.vertices.size(), {});
     for (const auto& [building, runs] : runs_by_building(tile)) {
       MeshPart& part = parts_.emplace_back(PlacedPart{building, cell, new_part(block, tile, runs.front(), cell)}).mesh;
@@ -234,7 +233,7 @@ std::vector<MeshPart> geometry_of(const Package& package, const CellRectangle& c
   PartsOfCity parts(reader.manifest());
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
     const Cell cell = range.cell_at(n);
-    parts.add(reader.block_tiles(cell), cell);
+    parts.add(reader.block_tiles(cell), reader.tile(cell), cell);
   }
   return std::move(parts).parts();
 }

@@ -12,6 +12,7 @@
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "package/relief_tiles.hpp"
 #include "scene/canopy_around.hpp"
 
 namespace farlod {
@@ -83,7 +84,8 @@ double bytes_of_pixels(const package::Manifest& manifest, const ResolvedSettings
   const double columns = manifest.pixels->columns, rows = manifest.pixels->rows;
   const double of_azimuth =
       path_bytes + path_step_bytes * (columns + rows) + drawn_azimuth_bytes * static_cast<double>(settings.threads);
-  return pixel_bytes * columns * rows + static_cast<double>(settings.sky.azimuths) * of_azimuth;
+  const double of_tiles = manifest.pixels->squares ? static_cast<double>(ReliefTiles::most_bytes) : 0.0;
+  return pixel_bytes * columns * rows + static_cast<double>(settings.sky.azimuths) * of_azimuth + of_tiles;
 }
 
 double crowns_of(const package::Manifest& manifest) { return static_cast<double>(manifest.canopy->crowns()); }

@@ -126,6 +126,8 @@ PackageCheck summed(const PackageContents& contents, const std::vector<CheckedBl
       check.damage.push_back({d.file.lexically_relative(contents.folder).generic_string(),
                               d.cell ? std::optional(CellPlace{d.cell->i, d.cell->j}) : std::nullopt, d.what});
   }
+  // Those that no file of tiles has are counted when their file is checked
+  if (triangles && manifest.pixels) *triangles += 2 * manifest.pixels->squares.value_or(0);
   if (triangles && *triangles != manifest.triangles)
     check.damage.push_back({package::manifest_file, std::nullopt,
                             (contents.folder / package::manifest_file).string() + " is damaged: it counts " +

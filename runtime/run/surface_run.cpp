@@ -43,8 +43,9 @@ CellReceivers answerable(Cell cell, const PlacedReceivers& placed) {
 }
 
 /// Who and where a receiver is; its answer is to come.
-SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& block, const SurfaceReceiver& r) {
-  const package::SurfaceRecord& surface = block.tile(cell).surface_of(r.triangle);
+SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& block, const TileView& tile,
+                      const SurfaceReceiver& r) {
+  const package::SurfaceRecord& surface = tile.surface_of(r.triangle);
   const Point2d corner = m.grid.corner_of(cell);
   const Point3d normal{r.normal.x, r.normal.y, r.normal.z};
   SurfacePoint point;
@@ -64,9 +65,10 @@ SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& b
 std::vector<SurfacePoint> points_of(const PackageReader& package, Cell cell, std::span<const SurfaceReceiver> receivers,
                                     std::span<const Receiver> answered, const SvfValues& values) {
   const BlockTiles& block = package.block_tiles(cell);
+  const TileView tile = package.tile(cell);
   std::vector<SurfacePoint> points;
   points.reserve(receivers.size());
-  for (const SurfaceReceiver& r : receivers) points.push_back(point_of(package.manifest(), cell, block, r));
+  for (const SurfaceReceiver& r : receivers) points.push_back(point_of(package.manifest(), cell, block, tile, r));
   for (std::size_t k = 0; k < answered.size(); ++k) {
     SurfacePoint& point = points[answered[k].index];
     point.svf = SvfValues::value(values.svf, k);

@@ -4,8 +4,8 @@
 """Packages of each version of the format, and the sky view factors that each of them gives.
 
   golden.py check BIN     reads each package with the programs in BIN, and compares the values
-  golden.py add BIN       packs the town, with trees, with mountains and without both, with the programs in BIN, and writes the
-                          packages of each version that is not here yet
+  golden.py add BIN       packs the town, with trees, with mountains and without both, and hills, with the programs in BIN, and
+                          writes the packages of each version that is not here yet
 """
 
 import csv
@@ -27,6 +27,8 @@ PARTS = {"": [], "_partial": ["--area", AREA]}
 TREES = ["--trees", HERE / "trees.csv", "--canopy", HERE / "canopy.asc"]
 # What stands in and around the town, and the parts of KINDS that are packed with it
 TOWNS = {"": ([], PARTS), "_trees": (TREES, PARTS), "_mountains": (["--far-terrain", HERE / "mountains.asc"], ["_partial"])}
+# Hills, whose far maps are of one kind
+HILLS = ["--crs", "EPSG:32632"]
 # Another Embree may let one ray of 1,000 go the other way, and points outside of the grid are traced by all engines
 TOLERANCE = 0.0011
 EXIT_UNUSABLE = 3
@@ -78,14 +80,20 @@ def read_table(path: pathlib.Path) -> list[dict[str, str]]:
 def pack_towns(binaries: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
     """The packages of the town by these programs, in a folder of the caller's, each with its version in its name."""
     packages = []
+
+    def pack(file: str, kind: str, part: str, what: str, cell_m: int, options: list) -> None:
+        packed = folder / "town.farlod"
+        made = run(binaries, "farlod-pack", HERE / file, "-o", packed, "--cell", cell_m, "--neighborhood", 1, "--align", "none",
+                   "--far-map", kind, "--quiet", *PARTS[part], *options)
+        if made.returncode != 0:
+            raise SystemExit(made.stderr)
+        packages.append(packed.rename(folder / f"version_{manifest_of(packed)['version']}_{kind}{part}{what}.farlod"))
+
     for kind, (town, (options, parts)) in itertools.product(KINDS, TOWNS.items()):
         for part in parts:
-            packed = folder / "town.farlod"
-            made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1, "--align",
-                       "none", "--far-map", kind, "--quiet", *PARTS[part], *options)
-            if made.returncode != 0:
-                raise SystemExit(made.stderr)
-            packages.append(packed.rename(folder / f"version_{manifest_of(packed)['version']}_{kind}{part}{town}.farlod"))
+            pack("town.geojson", kind, part, town, 50, options)
+    for part in PARTS:
+        pack("relief.asc", "horizon", part, "_relief", 20, HILLS)
     return packages
 
 
@@ -139,12 +147,12 @@ def version_of(name: str) -> int:
 
 
 def newest_version() -> int:
-    """That of packages with a far terrain."""
-    return version_of("far_terrain_format_version")
+    """That of natural relief."""
+    return version_of("relief_format_version")
 
 
 def check_kinds(version: int, packages: list[pathlib.Path]) -> list[str]:
-    kinds = [f"version_{version}_{kind}" for kind in KINDS]
+    kinds = [f"version_{version}_{kind}" for kind in (KINDS[:1] if version == newest_version() else KINDS)]
     return [f"no package of {kind}: see README.md" for kind in kinds if not any(p.stem.startswith(kind) for p in packages)]
 
 

@@ -222,9 +222,16 @@ TEST(Layout, HeightsAreDocumented) {
   EXPECT_DOCUMENTED(HeightsHeader, rows);
   EXPECT_DOCUMENTED(HeightsHeader, reserved);
   EXPECT_DOCUMENTED(HeightsHeader, file_bytes);
-  EXPECT_NE(chapter("HeightsHeader").find("| 8 | `version` | u32 | " + std::to_string(heights_version) + " |"),
+  EXPECT_NE(chapter("HeightsHeader")
+                .find("| 8 | `version` | u32 | " + std::to_string(heights_version) + ", or " +
+                      std::to_string(placed_heights_version) + " "),
             std::string::npos);
-  for (const char* key : {"`pixels.heights.bytes`", "`pixels.heights.xxh3`"})
+  EXPECT_DOCUMENTED(PixelsInGrid, first_x_m);
+  EXPECT_DOCUMENTED(PixelsInGrid, first_y_m);
+  EXPECT_DOCUMENTED(PixelsInGrid, step_m);
+  EXPECT_DOCUMENTED(PixelsInGrid, cos);
+  EXPECT_DOCUMENTED(PixelsInGrid, sin);
+  for (const char* key : {"`pixels.heights.bytes`", "`pixels.heights.xxh3`", "`pixels.squares`"})
     EXPECT_NE(chapter("manifest.json").find(key), std::string::npos) << key;
 }
 

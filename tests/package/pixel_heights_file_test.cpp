@@ -123,7 +123,7 @@ TEST_F(SmallHeights, WhatBreaksARuleOfTheHeaderIsDamage) {
   EXPECT_EQ(damage_of(whole), "no damage");
   EXPECT_THAT(damage_with(0, 'X'), AllOf(HasSubstr(path().string()), HasSubstr("does not begin as heights.bin does")));
   EXPECT_THAT(damage_with(offsetof(HeightsHeader, version), std::uint32_t{0}), HasSubstr("its format version does not exist"));
-  EXPECT_THROW((void)damage_with(offsetof(HeightsHeader, version), package::heights_version + 1), PackageUnusable);
+  EXPECT_THROW((void)damage_with(offsetof(HeightsHeader, version), package::placed_heights_version + 1), PackageUnusable);
   for (const std::size_t offset : {offsetof(HeightsHeader, columns), offsetof(HeightsHeader, rows)})
     for (const std::uint32_t count : {0U, 1U, 6U, ~0U})
       EXPECT_THAT(damage_with(offset, count), HasSubstr("its pixels are not those of the manifest")) << count;
@@ -161,6 +161,92 @@ TEST_F(SmallHeights, APixelThatIsJoinedWithNoneIsDamage) {
   EXPECT_THAT(damage_with_joined(4, JoinedPixels::north), is_told) << "beyond the last row";
   EXPECT_EQ(damage_with_joined(2, JoinedPixels::north), "no damage");
   EXPECT_EQ(damage_with_joined(4, JoinedPixels::east), "no damage");
+}
+
+/// A raster of 3 × 3 pixels of 0.5 m in one cell, whose north-eastern pixel has no height; two squares are left out.
+class HeightsWithSquares : public SmallHeights {
+ protected:
+  HeightsWithSquares() { write(PixelHeights(heights_with_squares)); }
+
+  void write(const PixelHeights& heights_now) {
+    (void)write_pixel_heights(small.folder(), pixels_with_squares, heights_now);
+    whole = bytes_of(path());
+  }
+  [[nodiscard]] std::string damage(std::uint64_t squares = 2) const {
+    package::Manifest manifest = read_manifest(small.folder());
+    manifest.pixels = pixels_with_squares;
+    manifest.pixels->heights = stamp_of(path());
+    manifest.pixels->squares = squares;
+    return damage_met_by([&] { (void)PixelHeightsFile(PackageFolder(small.folder()), manifest); });
+  }
+  [[nodiscard]] std::string damage_at(double x_m, double y_m, double step_m = 0.5, double cos = 1.0, double sin = 0.0) {
+    PixelHeights moved = heights_with_squares;
+    moved.in_grid = PixelsInGrid{x_m, y_m, step_m, cos, sin};
+    write(moved);
+    return damage();
+  }
+
+  const package::SurfacePixels pixels_with_squares{{500'000.0, 5'700'000.0}, 0.5, 3, 3};
+  static constexpr std::uint8_t both = JoinedPixels::east | JoinedPixels::north, square = both | PixelSquares::left_out;
+  const PixelHeights heights_with_squares{
+      {1, 2, 3, 2, 3, 1, 4, 5, not_a_number},
+      {square, both, JoinedPixels::north, square, JoinedPixels::north | JoinedPixels::east, 0, JoinedPixels::east, 0, 0},
+      PixelsInGrid{4.25, 5.25, 0.5, 1.0, 0.0}};
+};
+
+TEST_F(HeightsWithSquares, SayWhereTheirPixelsLie) {
+  EXPECT_EQ(damage(), "no damage");
+  EXPECT_EQ(whole.size(), sizeof(HeightsHeader) + sizeof(PixelsInGrid) + 9U * 5U);
+  package::Manifest manifest = read_manifest(small.folder());
+  manifest.pixels = pixels_with_squares;
+  manifest.pixels->heights = stamp_of(path());
+  manifest.pixels->squares = 2;
+  const PixelHeightsFile file(PackageFolder(small.folder()), manifest);
+  ASSERT_TRUE(file.in_grid().has_value());
+  EXPECT_EQ(file.in_grid()->centre_of(2, 1), (Point2d{5.25, 5.75}));
+  EXPECT_EQ(file.height_m()[7], 5.0F);
+}
+
+TEST_F(HeightsWithSquares, OfAnotherNumberAreDamage) {
+  for (const std::uint64_t squares : {0, 1, 3})
+    EXPECT_THAT(damage(squares), HasSubstr("are not as many as the manifest says")) << squares;
+}
+
+TEST_F(HeightsWithSquares, ThatDoNotKnowTheirPlacesAreDamage) {
+  PixelHeights unplaced = heights_with_squares;
+  unplaced.in_grid.reset();
+  write(unplaced);
+  EXPECT_THAT(damage(), HasSubstr("it does not say where its pixels lie"));
+}
+
+TEST_F(HeightsWithSquares, ThatAreTornAreDamage) {
+  for (const std::size_t pixel : {1, 2, 4, 5, 6, 7, 8}) {
+    PixelHeights torn = heights_with_squares;
+    torn.joined[pixel] |= PixelSquares::left_out;
+    write(torn);
+    EXPECT_THAT(damage(3), HasSubstr(pixel == 1 ? "no damage" : "is torn")) << pixel;
+  }
+}
+
+TEST_F(HeightsWithSquares, ThatLieInNoCellOrInSeveralAreDamage) {
+  const auto is_told = HasSubstr("lies in no cell, or in several");
+  const double edge_m = read_manifest(small.folder()).grid.cell_edge_m;
+  EXPECT_THAT(damage_at(edge_m - 0.25, 5.25), is_told) << "over a border";
+  EXPECT_THAT(damage_at(edge_m - 0.5, 5.25), is_told) << "a side on a border";
+  EXPECT_THAT(damage_at(0.0, 5.25), is_told) << "a side on a border";
+  EXPECT_THAT(damage_at(4.25, -9.0), is_told) << "beyond the grid";
+  EXPECT_EQ(damage_at(edge_m + 0.25, 5.25), "no damage");
+}
+
+TEST_F(HeightsWithSquares, ThatLieNowhereAreDamage) {
+  const auto is_told = HasSubstr("its pixels lie nowhere");
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(damage_at(none, 5.25), is_told);
+  EXPECT_THAT(damage_at(4.25, 1e12), is_told);
+  EXPECT_THAT(damage_at(4.25, 5.25, 0.0), is_told);
+  EXPECT_THAT(damage_at(4.25, 5.25, none), is_told);
+  EXPECT_THAT(damage_at(4.25, 5.25, 0.5, 2.0), is_told);
+  EXPECT_THAT(damage_at(4.25, 5.25, 0.5, none, 0.0), is_told);
 }
 
 }  // namespace
