@@ -178,13 +178,15 @@ class Packing {
     const CityModel& model = city.located.city;
     const GridOnGround& ground = city.ground;
     const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
-    const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : city.located.relief_points.size();
+    const GroundLoad load =
+        ground.terrain ? ground_load_of(*ground.terrain, ground.grid, model.buildings().empty() && squares_of_readers(settings_))
+                       : GroundLoad::of_points(city.located.relief_points.size());
     const FarMapKind kind = settings_.far_map.kind;
     const CanopyLoad canopy = canopy_load_of(trees);
-    record_.memory = memory_of_pack(model, ground_points, ground.grid, kind, canopy);
+    record_.memory = memory_of_pack(model, load, ground.grid, kind, canopy);
     if (!settings_.far_terrains.empty()) record_.memory.always_mib += far_terrain::most_mib;
-    record_.result.estimate =
-        estimate_pack(record_.memory, model, ground_points, ground.grid, kind, canopy, threads, record_.plan.far_maps);
+    const std::uint64_t far_maps = load.is_natural_relief && !settings_.area ? 0 : record_.plan.far_maps;
+    record_.result.estimate = estimate_pack(record_.memory, model, load, ground.grid, kind, canopy, threads, far_maps);
     expect_memory();
   }
 

@@ -35,9 +35,13 @@ constexpr std::array bytes_per_facet{24.0, 8.0, 72.0};
 constexpr std::array bytes_per_tile_triangle{48.0, 7.0, 36.0, 12.0, 4.0, 6.0, 11.0};
 /// The network of the ground and the points that it is made of, for each of its points.
 constexpr std::array bytes_per_ground_point{130.0, 24.0};
+/// The surface of a surface model, for each of its triangles, with the edges beside them.
+constexpr std::array bytes_per_surface_triangle{72.0, 60.0};
 /// In memory: a building and its name; a tile and its counts; a point of a survey; and for far maps of the kind `box` an index of
 /// rays over the triangles, and the vertices that it is made of.
 constexpr double bytes_per_building = 150.0, bytes_per_cell = 500.0, bytes_per_surveyed_point = 40.0;
+/// A pixel of a surface model: its height, and what it is joined with.
+constexpr double bytes_per_pixel = 12.0;
 constexpr double ray_index_bytes_per_triangle = 150.0;
 /// Where neither a terrain nor a relief is given, the ground passes through so many of the city's points.
 constexpr double base_points_per_point = 0.16;
@@ -52,7 +56,7 @@ constexpr std::array bytes_per_tree{static_cast<double>(sizeof(Tree))};
 constexpr std::array bytes_per_crown{static_cast<double>(sizeof(CrownsOfCity::OwnedCrown))};
 constexpr std::array bytes_per_canopy_pixel{static_cast<double>(sizeof(float))};
 
-constexpr double package_bytes_per_triangle = 28.0;
+constexpr double package_bytes_per_triangle = 28.0, package_bytes_per_pixel = 5.0;
 constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
 
 /// On one core: cutting and writing a triangle.
@@ -68,13 +72,16 @@ double tile_triangles(std::size_t points, std::size_t facets, const Grid& grid) 
          (tiles_per_city_triangle + cut_by_borders_m / grid.cell_edge_m);
 }
 
-double triangles_in_tiles(const CityModel& city, std::size_t ground_points, const Grid& grid) {
-  return tile_triangles(city.points().size(), city.facets().size(), grid) +
-         tiles_per_ground_point * static_cast<double>(ground_points);
+double triangles_of(const GroundLoad& ground) {
+  return ground.is_surface ? ground.triangles : tiles_per_ground_point * static_cast<double>(ground.points);
+}
+
+double triangles_in_tiles(const CityModel& city, const GroundLoad& ground, const Grid& grid) {
+  return tile_triangles(city.points().size(), city.facets().size(), grid) + triangles_of(ground);
 }
 
 /// The triangles in the tiles of the block that has the most of them.
-double triangles_in_densest_block(const CityModel& city, std::size_t ground_points, const Grid& grid) {
+double triangles_in_densest_block(const CityModel& city, const GroundLoad& ground, const Grid& grid) {
   std::map<Block, double> of_buildings;
   city.for_each_building([&](std::size_t, const Building& b) {
     const std::span<const Point3d> points = city.points_of(b);
@@ -84,7 +91,7 @@ double triangles_in_densest_block(const CityModel& city, std::size_t ground_poin
   });
   double most = 0.0;
   for (const auto& [block, triangles] : of_buildings) most = std::max(most, triangles);
-  return most + tiles_per_ground_point * static_cast<double>(ground_points) / static_cast<double>(grid.blocks().size());
+  return most + triangles_of(ground) / static_cast<double>(grid.blocks().size());
 }
 
 /// Bytes of arrays: long ones lie on disk.
@@ -109,26 +116,28 @@ CanopyLoad canopy_load_of(const tiles::TreesOfCity& trees) {
   return load;
 }
 
-PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
+PackMemory memory_of_pack(const CityModel& city, const GroundLoad& ground, const Grid& grid, FarMapKind far_map,
                           const CanopyLoad& canopy) {
-  const auto points = static_cast<double>(city.points().size()), surveyed = static_cast<double>(ground_points);
-  const double triangles = triangles_in_tiles(city, ground_points, grid);
+  const auto points = static_cast<double>(city.points().size()), surveyed = static_cast<double>(ground.points);
+  const double triangles = triangles_in_tiles(city, ground, grid);
   Arrays arrays;
   arrays.add(bytes_per_point, points);
   arrays.add(bytes_per_facet, static_cast<double>(city.facets().size()));
   arrays.add(bytes_per_tile_triangle, triangles);
-  arrays.add(bytes_per_ground_point, ground_points > 0 ? surveyed : base_points_per_point * points);
+  if (!ground.is_surface) arrays.add(bytes_per_ground_point, ground.points > 0 ? surveyed : base_points_per_point * points);
+  if (ground.is_surface) arrays.add(bytes_per_surface_triangle, ground.triangles);
   arrays.add(bytes_per_tree, static_cast<double>(canopy.trees));
   arrays.add(bytes_per_crown, static_cast<double>(canopy.crowns()));
   arrays.add(bytes_per_canopy_pixel, static_cast<double>(canopy.pixels));
   if (canopy.has_trunks) arrays.add(bytes_per_canopy_pixel, static_cast<double>(canopy.pixels));
   const double index = bytes_per_building * static_cast<double>(city.buildings().size()) +
-                       bytes_per_cell * static_cast<double>(grid.cells.size()) + bytes_per_surveyed_point * surveyed +
+                       bytes_per_cell * static_cast<double>(grid.cells.size()) +
+                       (ground.is_surface ? bytes_per_pixel : bytes_per_surveyed_point) * surveyed +
                        (far_map == FarMapKind::box ? ray_index_bytes_per_triangle * triangles : 0.0);
   const double cells_of_block =
       std::min(static_cast<double>(grid.block_edge) * grid.block_edge, static_cast<double>(grid.cells.size()));
   const double block =
-      bytes_per_baked_map * cells_of_block + written_bytes_per_triangle * triangles_in_densest_block(city, ground_points, grid);
+      bytes_per_baked_map * cells_of_block + written_bytes_per_triangle * triangles_in_densest_block(city, ground, grid);
   return {memory_mib_of_program + (index + arrays.in_memory) / bytes_per_mib, block / bytes_per_mib,
           arrays.on_disk / bytes_per_mib};
 }
@@ -148,11 +157,11 @@ std::size_t PackMemory::blocks_at_once(std::size_t wanted, const RunSettings& ru
   return more >= static_cast<double>(wanted) ? wanted : std::min(wanted, 1 + static_cast<std::size_t>(more));
 }
 
-PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std::size_t ground_points, const Grid& grid,
+PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, const GroundLoad& ground, const Grid& grid,
                            FarMapKind far_map, const CanopyLoad& canopy, std::size_t threads,
                            std::optional<std::uint64_t> far_maps) {
   const bool is_box = far_map == FarMapKind::box;
-  const double triangles = triangles_in_tiles(city, ground_points, grid);
+  const double triangles = triangles_in_tiles(city, ground, grid);
   PackEstimate e;
   e.cells = static_cast<std::uint64_t>(grid.cells.size());
   e.far_maps = far_maps.value_or(e.cells);
@@ -162,7 +171,8 @@ PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std:
       (triangles * seconds_per_triangle + maps * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1)) +
       crowns * seconds_per_crown;
   const double per_map = is_box ? package_bytes_per_box_map : package_bytes_per_horizon_map;
-  e.package_mib = (triangles * package_bytes_per_triangle + maps * per_map + crowns * sizeof(Crown)) / bytes_per_mib;
+  const double of_pixels = ground.is_surface ? package_bytes_per_pixel * static_cast<double>(ground.points) : 0.0;
+  e.package_mib = (triangles * package_bytes_per_triangle + of_pixels + maps * per_map + crowns * sizeof(Crown)) / bytes_per_mib;
   e.memory_mib = memory.in_memory_mib(usual_blocks_at_once) +
                  std::min(in_use_of_files * memory.on_disk_mib, static_cast<double>(MemoryBound::most_of_files) / bytes_per_mib);
   e.least_memory_mib = memory.least_mib();

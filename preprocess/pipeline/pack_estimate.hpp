@@ -10,6 +10,7 @@
 #include "city/city_model.hpp"
 #include "farlod/pack.hpp"
 #include "farmap/horizon_map_baker.hpp"
+#include "pipeline/ground_load.hpp"
 #include "tiles/crowns_on_ground.hpp"
 
 namespace farlod::pipeline {
@@ -44,15 +45,14 @@ struct CanopyLoad {
 };
 [[nodiscard]] CanopyLoad canopy_load_of(const tiles::TreesOfCity& trees);
 
-/// For cities of grounded buildings (Surface::grounded). `ground_points`: nodes of a terrain or points of a relief, 0 without
-/// either.
-[[nodiscard]] PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
+/// For cities of grounded buildings (Surface::grounded).
+[[nodiscard]] PackMemory memory_of_pack(const CityModel& city, const GroundLoad& ground, const Grid& grid, FarMapKind far_map,
                                         const CanopyLoad& canopy = {});
 
 /// Estimates memory and package size within a factor of two for cities of grounded buildings; cities of open shells have larger
 /// far maps. The time is that of an idle machine like the one of docs/performance.md. `far_maps` are baked, of all cells when
 /// absent.
-[[nodiscard]] PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std::size_t ground_points,
+[[nodiscard]] PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, const GroundLoad& ground,
                                          const Grid& grid, FarMapKind far_map, const CanopyLoad& canopy, std::size_t threads,
                                          std::optional<std::uint64_t> far_maps = {});
 

@@ -89,6 +89,7 @@ TEST(ReliefPackage, LeavesMostSquaresToReaders) {
   EXPECT_TRUE(p.result.package.is_natural_relief) << "and the run tells it";
   EXPECT_EQ(m.cells_with_far_map(), 0U);
   EXPECT_GT(m.triangles, 2U * 59U * 49U);
+  EXPECT_EQ(p.result.estimate.far_maps, 0U) << "it is known beforehand";
 }
 
 TEST(ReliefPackage, LeavesNoneOfATownOrOfLevelGround) {
@@ -99,6 +100,7 @@ TEST(ReliefPackage, LeavesNoneOfATownOrOfLevelGround) {
     EXPECT_FALSE(m.pixels->squares.has_value());
     EXPECT_EQ(m.version, package::format_version);
     EXPECT_FALSE(package::is_natural_relief(m));
+    EXPECT_EQ(p.result.estimate.far_maps, m.cells_with_far_map());
     EXPECT_EQ(m.pixels->walls.value_or(0) > 0, shown == Shown::blocks);
     const PackageReader reader(p.settings.output);
     ASSERT_NE(reader.pixel_heights(), nullptr);
