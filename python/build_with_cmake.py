@@ -22,13 +22,13 @@ ROOT = Path(__file__).resolve().parent.parent
 
 _OF_BOTH = (
     "cmake g++ ninja-build pkg-config pybind11-dev python3-dev libembree-dev libtbb-dev libopenexr-dev libboost-dev libxxhash-dev "
-    "nlohmann-json3-dev"
+    "liberfa-dev libfmt-dev nlohmann-json3-dev"
 ).split()
 #: Debian packages that it takes to compile each of the modules.
 DEBIAN_PACKAGES = {
     "runtime": _OF_BOTH,
     "preprocess": _OF_BOTH
-    + "libcgal-dev libgmp-dev libmpfr-dev libgeographiclib-dev libproj-dev libgdal-dev libexpat1-dev libfmt-dev".split(),
+    + "libcgal-dev libgmp-dev libmpfr-dev libgeographiclib-dev libproj-dev libgdal-dev libexpat1-dev".split(),
 }
 
 

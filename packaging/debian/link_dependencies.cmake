@@ -8,6 +8,7 @@ set(debian_packages
   ".*(GeographicLib|farlod::geographiclib).*=libgeographiclib-dev"
   "OpenEXR::OpenEXR(Core)?=libopenexr-dev"
   "PROJ::proj=libproj-dev"
+  "PkgConfig::ERFA=liberfa-dev"
   "PkgConfig::XXHASH=libxxhash-dev"
   "TBB::tbb=libtbb-dev"
   "embree=libembree-dev"

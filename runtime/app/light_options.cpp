@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cstdint>
 #include <utility>
 
 #include "app/word_choice.hpp"
 #include "console/option_list.hpp"
 #include "farlod/error.hpp"
+#include "weather/period.hpp"
 
 namespace farlod {
 namespace {
@@ -33,10 +35,10 @@ void set_albedo(const std::string& text, Light& light) {
     throw CLI::ValidationError("--albedo", "\"" + text + "\" is not two numbers from 0 to 1 with a comma, like 0.2,0.3");
 }
 
-std::optional<Period> period_of(const std::string& text) {
-  if (text.empty()) return std::nullopt;
+void check_period(const std::string& text) {
+  if (text.empty()) return;
   try {
-    return period_in(text);
+    (void)period_in(text);
   } catch (const InvalidArgument& error) {
     throw CLI::ValidationError("--period", error.what());
   }
@@ -80,12 +82,12 @@ void add_times(CLI::App& app, RawLight& raw) {
       ->group(group_of_light);
 }
 
-}  // namespace
-
-void add_light_options(CLI::App& app, RawLight& raw) {
+/// Where light comes from.
+void add_source_options(CLI::App& app, RawLight& raw) {
   app.add_option("--weather", raw.weather_file,
                  "Weather for irradiation, irradiance, illuminance and shade: EPW, a TMY of PVGIS or NREL, or a CSV of times and "
-                 "global, direct and diffuse irradiance. Without it, the sky of --period is clear")
+                 "global, direct "
+                 "and diffuse irradiance. Without it, the sky of --period is clear")
       ->type_name(file_value)
       ->group(group_of_light);
   app.add_option("--period", raw.period,
@@ -95,6 +97,12 @@ void add_light_options(CLI::App& app, RawLight& raw) {
                  "Linke turbidity of a clear sky: 2 in mountains, 3 in a clear country, 4 to 5 in cities (default: 3)")
       ->check(between(1.0, 12.0))
       ->group(group_of_light);
+}
+
+}  // namespace
+
+void add_light_options(CLI::App& app, RawLight& raw, SurfaceSettings& surfaces) {
+  add_source_options(app, raw);
   app.add_option("--sky-model", raw.sky_model, "How the light of the sky is spread: perez (all weathers, 1993), or isotropic")
       ->check(one_of(sky_model_words))
       ->capture_default_str()
@@ -106,7 +114,7 @@ void add_light_options(CLI::App& app, RawLight& raw) {
   add_times(app, raw);
 }
 
-std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quantities) {
+std::optional<LightSource> resolved_light(const RawLight& raw, Quantities& quantities) {
   require_fitting(raw, quantities);
   if (!quantities.any_of_light()) return std::nullopt;
   Light& light = quantities.light.emplace();
@@ -114,10 +122,11 @@ std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quan
   light.by_month = raw.by == "month";
   light.by_step = raw.by == "step";
   set_albedo(raw.albedo, light);
-  LightRequest request{.weather_file = raw.weather_file, .period = period_of(raw.period)};
-  if (raw.step_minutes > 0) request.step = std::chrono::minutes(static_cast<std::int64_t>(raw.step_minutes));
-  if (raw.linke_turbidity) request.linke_turbidity = *raw.linke_turbidity;
-  return request;
+  check_period(raw.period);
+  LightSource source{.weather_file = raw.weather_file, .period = raw.period};
+  if (raw.step_minutes > 0) source.step = std::chrono::minutes(static_cast<std::int64_t>(raw.step_minutes));
+  if (raw.linke_turbidity) source.linke_turbidity = *raw.linke_turbidity;
+  return source;
 }
 
 }  // namespace farlod

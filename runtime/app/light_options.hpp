@@ -2,28 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "farlod/quantities.hpp"
-#include "weather/period.hpp"
+#include "farlod/surfaces.hpp"
+#include "farlod/weather.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace farlod {
-
-/// Where the light of a period comes from.
-struct LightRequest {
-  std::filesystem::path weather_file;  ///< empty: the sky is clear, and the period is given
-  std::optional<Period> period;        ///< none: all of the weather
-  std::chrono::minutes step{5};
-  double linke_turbidity = 3.0;  ///< of the clear sky
-};
 
 /// What the options of this file say, as text.
 struct RawLight {
@@ -36,6 +27,6 @@ void add_light_options(CLI::App& app, RawLight& raw);
 
 /// What they mean for these quantities, which take on what is known of their light, but for its intervals; nothing where none of
 /// them has any light. Throws CLI::ValidationError.
-[[nodiscard]] std::optional<LightRequest> resolved_light(const RawLight& raw, Quantities& quantities);
+[[nodiscard]] std::optional<LightSource> resolved_light(const RawLight& raw, Quantities& quantities);
 
 }  // namespace farlod

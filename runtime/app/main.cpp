@@ -240,11 +240,18 @@ WrittenRun write(const Package& package, const SvfOptions& options, const RunSet
 }
 
 WrittenRun evaluate(SvfOptions options) {
+void add_light(const std::optional<PeriodLight>& light, WrittenRun& written) {
+  written.light = light;
+  if (!light) return;
+  const std::vector<std::string> notes = notes_of(*light);
+  written.notes.insert(written.notes.begin(), notes.begin(), notes.end());
+}
+
   const auto start = Clock::now();
   const Package package(options.package);
   const double open_s = seconds_since(start);
   options.evaluation.region = region_of_package(options, package.description());
-  const std::vector<std::string> remarks = place_light(package, options);
+  const std::optional<PeriodLight> light = place_light(package, options);
   if (options.format != nullptr)
     add_for_solweig(*options.format, inventory_of(package).crowns.all() > 0, options.evaluation.further);
   ProgressLine progress("sky view factors", options.run.verbosity);
@@ -254,7 +261,7 @@ WrittenRun evaluate(SvfOptions options) {
   WrittenRun written = write(package, options, run);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
-  written.notes.insert(written.notes.begin(), remarks.begin(), remarks.end());
+  add_light(light, written);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   if (options.evaluation.dry_run) return written;
   if (options.shard) {

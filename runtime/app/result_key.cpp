@@ -60,13 +60,13 @@ void add_sun(const SunPeriod& sun, AnswerKey& key) {
   key.emplace_back("--sun-step", fmt::format("{}", sun.step.count()));
 }
 
-void add_light(const LightRequest& request, const Light& light, AnswerKey& key) {
-  if (request.weather_file.empty())
-    key.emplace_back("--linke", fmt::format("{}", request.linke_turbidity));
+void add_light(const LightSource& source, const Light& light, AnswerKey& key) {
+  if (source.weather_file.empty())
+    key.emplace_back("--linke", fmt::format("{}", source.linke_turbidity));
   else
-    key.emplace_back("--weather", name_of_file(request.weather_file));
-  if (request.period) key.emplace_back("--period", request.period->text);
-  key.emplace_back("--step", fmt::format("{}", request.step.count()));
+    key.emplace_back("--weather", name_of_file(source.weather_file));
+  if (!source.period.empty()) key.emplace_back("--period", source.period);
+  key.emplace_back("--step", fmt::format("{}", source.step.count()));
   key.emplace_back("--sky-model", word_for(sky_model_words, light.sky_model));
   key.emplace_back("--albedo", fmt::format("{},{}", light.ground_albedo, light.facade_albedo));
   if (light.by_month || light.by_step) key.emplace_back("--by", light.by_month ? "month" : "step");

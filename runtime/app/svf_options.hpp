@@ -44,7 +44,7 @@ struct SvfOptions {
   std::filesystem::path mask_file;    ///< of polygons; empty: no mask
   EvaluationSettings evaluation;      ///< but for the sun and its light, which depend on where the package is
   std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
-  std::optional<LightRequest> light;  ///< where the light of a period comes from, if any is asked for
+  std::optional<LightSource> light;   ///< where the light of a period comes from, if any is asked for
   std::string preview_file, verify_file, histogram_file;
   SkyProjection projection = SkyProjection::equal_area;
   std::optional<std::uint64_t> memory_limit_mib;

@@ -50,7 +50,21 @@ Json json_of(const ErrorSummary& errors) {
           {"bias", errors.bias}};
 }
 
-void add_totals(const EvaluationSummary& run, Json& j) {
+/// The light of a run, and what reflects it.
+Json json_of(const PeriodLight& light, const Light& asked, const LightSource& source) {
+  return {{"source", light.source},
+          {"hours", light.hours},
+          {"period", source.period.empty() ? Json(nullptr) : Json(source.period)},
+          {"step_minutes", source.step.count()},
+          {"sky_model", word_for(sky_model_words, asked.sky_model)},
+          {"ground_albedo", asked.ground_albedo},
+          {"facade_albedo", asked.facade_albedo},
+          {"global_horizontal_kwh_m2", light.global_horizontal_kwh_m2},
+          {"remarks", light.remarks}};
+}
+
+void add_errors_and_totals(const EvaluationSummary& run, Json& j) {
+  if (run.errors) j["verify"] = json_of(*run.errors);
   if (run.svf_total) j["svf_total"] = {{"min", run.svf_total->min}, {"mean", run.svf_total->mean}, {"max", run.svf_total->max}};
   if (run.svf_total_bounds) j["svf_total_bounds"] = json_of(*run.svf_total_bounds);
   if (run.svf_total_errors) j["svf_total_verify"] = json_of(*run.svf_total_errors);
@@ -75,11 +89,11 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
+  if (written.light) j["light"] = json_of(*written.light, *options.evaluation.further.light, *options.light);
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.bounds) j["bounds"] = json_of(*run.bounds);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);
-  if (run.errors) j["verify"] = json_of(*run.errors);
-  add_totals(run, j);
+  add_errors_and_totals(run, j);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   j["settings"] = Json::parse(options.run.settings_json);

@@ -12,6 +12,7 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/package.hpp"
 #include "farlod/run.hpp"
+#include "farlod/weather.hpp"
 #include "results/picture/error_map.hpp"
 
 namespace farlod {
@@ -27,6 +28,7 @@ struct WrittenRun {
   std::vector<std::string> notes = {};            ///< what the user should know of how the points were read, a sentence each
   std::size_t skipped_features = 0;               ///< of the file of points, which are no points
   std::optional<GreyMap> grey_map = {};           ///< of a raster, if a map of its errors is asked for
+  std::optional<PeriodLight> light = {};          ///< what is known of it, but for its intervals, if any is asked for
 };
 
 /// The three kinds of run: each evaluates and writes its files. They throw what the library throws, and PointsError.

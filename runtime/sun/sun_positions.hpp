@@ -8,15 +8,10 @@
 #include <vector>
 
 #include "farlod/angle.hpp"
-#include "farlod/quantities.hpp"
+#include "farlod/light.hpp"
+#include "farlod/weather.hpp"
 
 namespace farlod {
-
-/// A place on the Earth (WGS84).
-struct PlaceOnEarth {
-  Angle longitude, latitude;
-  double height_m = 0.0;  ///< above the ellipsoid
-};
 
 /// What refracts light near the ground.
 struct Atmosphere {

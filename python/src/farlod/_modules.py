@@ -19,6 +19,7 @@ DEBIAN_PACKAGES = {
     "libembree3.so.3": ("libembree3-3", "12"),
     "libembree4.so.4": ("libembree4-4", "13"),
     "libexpat.so.1": ("libexpat1", "12 and 13"),
+    "liberfa.so.1": ("liberfa1", "12 and 13"),
     "libfmt.so.9": ("libfmt9", "12"),
     "libfmt.so.10": ("libfmt10", "13"),
     "libgdal.so.32": ("libgdal32", "12"),

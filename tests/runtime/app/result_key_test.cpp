@@ -155,16 +155,16 @@ TEST_F(ResultKey, HasTheLightOfAPeriod) {
   lit.light.emplace();
   const auto light = [](auto change) { return [change](SvfOptions& o) { change(*o.evaluation.further.light); }; };
   const auto request = [](auto change) { return [change](SvfOptions& o) { change(*o.light); }; };
-  expect_each_to_change(
-      lit, {{"--weather", request([&](LightRequest& r) { r.weather_file = folder.file("a.csv"); })},
-            {"--weather of other contents", request([&](LightRequest& r) { r.weather_file = folder.file("b.csv"); })},
-            {"--period", request([](LightRequest& r) { r.period = period_in("2026-06"); })},
-            {"--step", request([](LightRequest& r) { r.step = std::chrono::minutes(10); })},
-            {"--linke", request([](LightRequest& r) { r.linke_turbidity = 5.0; })},
-            {"--sky-model", light([](Light& l) { l.sky_model = SkyModel::isotropic; })},
-            {"--albedo of the ground", light([](Light& l) { l.ground_albedo = 0.1; })},
-            {"--albedo of façades", light([](Light& l) { l.facade_albedo = 0.1; })},
-            {"--by month", light([](Light& l) { l.by_month = true; })}});
+  expect_each_to_change(lit,
+                        {{"--weather", request([&](LightSource& r) { r.weather_file = folder.file("a.csv"); })},
+                         {"--weather of other contents", request([&](LightSource& r) { r.weather_file = folder.file("b.csv"); })},
+                         {"--period", request([](LightSource& r) { r.period = "2026-06"; })},
+                         {"--step", request([](LightSource& r) { r.step = std::chrono::minutes(10); })},
+                         {"--linke", request([](LightSource& r) { r.linke_turbidity = 5.0; })},
+                         {"--sky-model", light([](Light& l) { l.sky_model = SkyModel::isotropic; })},
+                         {"--albedo of the ground", light([](Light& l) { l.ground_albedo = 0.1; })},
+                         {"--albedo of façades", light([](Light& l) { l.facade_albedo = 0.1; })},
+                         {"--by month", light([](Light& l) { l.by_month = true; })}});
 }
 
 TEST_F(ResultKey, HasWhatCrownsDo) {
