@@ -31,6 +31,8 @@ inline constexpr std::array<Word<SurfaceChoice>, 3> surface_choice_words{
 struct SurfaceSettings {
   SurfaceChoice choice = SurfaceChoice::all;
   double spacing_m = 2.0;  ///< 0.05 to 1,000
+  /// Surfaces and buildings tell which of their area gets at least so much, 0 to 100,000 kWh/m². Needs Quantities::irradiation.
+  std::optional<double> irradiation_threshold_kwh_m2 = {};
 };
 
 /// A receiver on a surface of a building.
@@ -49,6 +51,13 @@ struct SurfacePoint {
   std::uint32_t building_number = 0;  ///< of the building, within the city; ids may be those of several
 };
 
+/// What falls on an area in the period of Quantities::light.
+struct AreaIrradiation {
+  double kwh = 0.0;
+  /// The part that gets at least SurfaceSettings::irradiation_threshold_kwh_m2, which there is where that is given.
+  std::optional<double> area_above_m2 = {};
+};
+
 /// Area-weighted mean over the receivers of a surface that have an answer.
 struct SurfaceMean {
   std::string building;
@@ -59,7 +68,8 @@ struct SurfaceMean {
   double covered_area_m2 = 0.0;  ///< of those that have none: below the ground or inside another building, it sees no sky
   std::size_t receivers = 0, nodata = 0;
   std::optional<double> svf_mean = {}, svf_min = {}, svf_max = {};
-  std::vector<double> further_mean = {};  ///< of the same; empty where no receiver has an answer
+  std::vector<double> further_mean = {};            ///< of the same; empty where no receiver has an answer
+  std::optional<AreaIrradiation> irradiation = {};  ///< of area_m2, with Quantities::irradiation; none where that is 0
 };
 
 /// Area-weighted means over the roofs and walls of a building.
@@ -71,6 +81,9 @@ struct BuildingMean {
   std::optional<double> svf_roofs = {}, svf_walls = {};
   /// The numbers of the buildings, within the city, ascending: one, unless several share the id, and have this row together.
   std::vector<std::uint32_t> building_numbers = {};
+  /// A value for each of columns_of(EvaluationSettings::further); empty where no roof (wall) has an answer.
+  std::vector<double> further_roofs = {}, further_walls = {};
+  std::optional<AreaIrradiation> roof_irradiation = {}, wall_irradiation = {};  ///< as SurfaceMean::irradiation
 };
 
 /// The means of a run, in an order that depends on nothing but the package and the settings.

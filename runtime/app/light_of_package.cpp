@@ -11,8 +11,8 @@
 #include "app/sun_of_package.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
-namespace farlod {
 
+namespace farlod {
 namespace {
 
 /// A day of five minutes.

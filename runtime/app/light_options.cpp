@@ -112,6 +112,11 @@ void add_light_options(CLI::App& app, RawLight& raw, SurfaceSettings& surfaces) 
                  "not sky")
       ->group(group_of_light);
   add_times(app, raw);
+  app.add_option(
+         "--irradiation-threshold", surfaces.irradiation_threshold_kwh_m2,
+         "With --surfaces, in kWh/m²: the tables of surfaces and buildings tell which of their area gets at least so much")
+      ->check(between(0.0, 100000.0))
+      ->group(group_of_light);
 }
 
 std::optional<LightSource> resolved_light(const RawLight& raw, Quantities& quantities) {

@@ -23,7 +23,7 @@ struct RawLight {
   std::size_t step_minutes = 0;
 };
 
-void add_light_options(CLI::App& app, RawLight& raw);
+void add_light_options(CLI::App& app, RawLight& raw, SurfaceSettings& surfaces);
 
 /// What they mean for these quantities, which take on what is known of their light, but for its intervals; nothing where none of
 /// them has any light. Throws CLI::ValidationError.

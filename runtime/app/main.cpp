@@ -201,7 +201,8 @@ WrittenRun write_enriched_city(const Package& package, const SvfOptions& options
   require_writable(options);
   const EnrichedCityFile city(
       package, options.package.string(), options.city_file,
-      {quantity_name(options.evaluation.weight), BoundsColumns::no, column_descriptions_of(options.evaluation.further)});
+      {quantity_name(options.evaluation.weight), BoundsColumns::no, column_descriptions_of(options.evaluation.further),
+       options.surfaces.irradiation_threshold_kwh_m2 ? ThresholdColumns::yes : ThresholdColumns::no});
   city.require_fitting(options.output);
   RunHistogram histogram(options);
   const OnSurfacePoints count = [&histogram](std::size_t, std::span<const SurfacePoint> points) { histogram.add(points); };
@@ -239,7 +240,6 @@ WrittenRun write(const Package& package, const SvfOptions& options, const RunSet
   return write_points(package, options, run);
 }
 
-WrittenRun evaluate(SvfOptions options) {
 void add_light(const std::optional<PeriodLight>& light, WrittenRun& written) {
   written.light = light;
   if (!light) return;
@@ -247,6 +247,7 @@ void add_light(const std::optional<PeriodLight>& light, WrittenRun& written) {
   written.notes.insert(written.notes.begin(), notes.begin(), notes.end());
 }
 
+WrittenRun evaluate(SvfOptions options) {
   const auto start = Clock::now();
   const Package package(options.package);
   const double open_s = seconds_since(start);

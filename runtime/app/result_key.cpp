@@ -133,6 +133,9 @@ Provenance provenance_of(const SvfOptions& options, const PackageDescription& pa
   std::string settings;
   for (const auto& [option, value] : key_of(options))
     settings += (settings.empty() ? "" : " ") + option + (value == flag ? "" : " " + value);
+  // It changes no answer, but what tables say of them
+  if (const auto& threshold = options.surfaces.irradiation_threshold_kwh_m2)
+    settings += fmt::format(" --irradiation-threshold {}", *threshold);
   return {std::string("Far-LoD ") + software_version, name_of_folder(options.package),
           fmt::format("{:016x}", package.manifest_xxh3), settings};
 }

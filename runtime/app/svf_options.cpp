@@ -314,6 +314,8 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
 }
 
 void resolve(const RawOptions& raw, SvfOptions& o) {
+  if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))
+    throw CLI::ValidationError("--irradiation-threshold", "it goes with --surfaces and --quantity irradiation");
   o.package = raw.package;
   resolve_place(raw, o);
   resolve_part(raw, o);
@@ -340,7 +342,7 @@ struct CommandLine {
     add_output_options(app, raw);
     add_picture_options(app, raw.pictures, options);
     add_quantity_options(app, raw.quantities);
-    add_light_options(app, raw.light);
+    add_light_options(app, raw.light, options.surfaces);
     add_sky_options(app, raw, options);
     add_error_options(app, options);
     add_limit_options(app, options);

@@ -30,7 +30,8 @@ namespace {
 
 AnswerColumns answer_columns(const SvfOptions& options) {
   return {quantity_name(options.evaluation.weight), options.evaluation.bounds ? BoundsColumns::yes : BoundsColumns::no,
-          column_descriptions_of(options.evaluation.further)};
+          column_descriptions_of(options.evaluation.further),
+          options.surfaces.irradiation_threshold_kwh_m2 ? ThresholdColumns::yes : ThresholdColumns::no};
 }
 
 std::vector<Band> bands_of_run(const SvfOptions& options) {

@@ -25,9 +25,29 @@ std::vector<const Entry*> in_order(const std::vector<Entry>& entries) {
 
 }  // namespace
 
+void AreaAnswers::add(const SurfacePoint& r, const WantedIrradiation& wanted) {
+  svf_.add(*r.svf, r.area_m2);
+  further_.resize(r.further.size());
+  for (std::size_t n = 0; n < r.further.size(); ++n)
+    if (!std::isnan(r.further[n])) further_[n].add(static_cast<double>(r.further[n]), r.area_m2);
+  if (!wanted.column) return;
+  const auto kwh_m2 = static_cast<double>(r.further[*wanted.column]);
+  if (!irradiation_) irradiation_.emplace();
+  irradiation_->kwh += kwh_m2 * r.area_m2;
+  if (!wanted.threshold_kwh_m2) return;
+  const double above_m2 = kwh_m2 >= *wanted.threshold_kwh_m2 ? r.area_m2 : 0.0;
+  irradiation_->area_above_m2 = irradiation_->area_above_m2.value_or(0.0) + above_m2;
+}
+
+std::vector<double> AreaAnswers::further() const {
+  std::vector<double> means;
+  for (const AreaMean& mean : further_) means.push_back(mean.value().value_or(std::nan("")));
+  return means;
+}
+
 void SurfaceAverages::add(PlaceInRun place, const SurfacePoint& r) {
   const auto [entry, is_new] = places_.try_emplace({r.building, r.surface}, surfaces_.size());
-  if (is_new) surfaces_.push_back({place, {r.building, r.surface, r.kind, r.azimuth, r.tilt}, {}, {}});
+  if (is_new) surfaces_.push_back({place, {r.building, r.surface, r.kind, r.azimuth, r.tilt}, {}});
   Surface& surface = surfaces_[entry->second];
   if (place < surface.first) {
     surface.first = place;
@@ -38,10 +58,7 @@ void SurfaceAverages::add(PlaceInRun place, const SurfacePoint& r) {
   surface.row.covered_area_m2 += r.svf ? 0.0 : r.area_m2;
   if (!r.svf) return;
   surface.row.area_m2 += r.area_m2;
-  surface.mean.add(*r.svf, r.area_m2);
-  surface.further.resize(r.further.size());
-  for (std::size_t n = 0; n < r.further.size(); ++n)
-    if (!std::isnan(r.further[n])) surface.further[n].add(static_cast<double>(r.further[n]), r.area_m2);
+  surface.answers.add(r, wanted_);
   add_extremes(surface.row, *r.svf);
 }
 
@@ -49,8 +66,9 @@ std::vector<SurfaceMean> SurfaceAverages::rows() const {
   std::vector<SurfaceMean> rows;
   for (const Surface* surface : in_order(surfaces_)) {
     rows.push_back(surface->row);
-    rows.back().svf_mean = surface->mean.value();
-    for (const AreaMean& mean : surface->further) rows.back().further_mean.push_back(mean.value().value_or(std::nan("")));
+    rows.back().svf_mean = surface->answers.svf();
+    rows.back().further_mean = surface->answers.further();
+    rows.back().irradiation = surface->answers.irradiation();
   }
   return rows;
 }
@@ -67,16 +85,20 @@ void BuildingAverages::add(PlaceInRun place, const SurfacePoint& r) {
   if (!r.svf) (is_roof ? building.row.covered_roof_area_m2 : building.row.covered_wall_area_m2) += r.area_m2;
   if (!r.svf) return;
   (is_roof ? building.row.roof_area_m2 : building.row.wall_area_m2) += r.area_m2;
-  (is_roof ? building.roofs : building.walls).add(*r.svf, r.area_m2);
+  (is_roof ? building.roofs : building.walls).add(r, wanted_);
 }
 
 std::vector<BuildingMean> BuildingAverages::rows() const {
   std::vector<BuildingMean> rows;
   for (const Building* building : in_order(buildings_)) {
-    rows.push_back(building->row);
-    rows.back().svf_roofs = building->roofs.value();
-    rows.back().svf_walls = building->walls.value();
-    rows.back().building_numbers.assign(building->numbers.begin(), building->numbers.end());
+    BuildingMean& row = rows.emplace_back(building->row);
+    row.svf_roofs = building->roofs.svf();
+    row.svf_walls = building->walls.svf();
+    row.building_numbers.assign(building->numbers.begin(), building->numbers.end());
+    row.further_roofs = building->roofs.further();
+    row.further_walls = building->walls.further();
+    row.roof_irradiation = building->roofs.irradiation();
+    row.wall_irradiation = building->walls.irradiation();
   }
   return rows;
 }

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "base/run_settings.hpp"
+#include "evaluate/quantity_table.hpp"
+#include "farlod/error.hpp"
 #include "farlod/surfaces.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_receivers.hpp"
@@ -85,12 +87,20 @@ std::vector<Cell> all_cells(const CellRange& range) {
   return cells;
 }
 
-/// Means need a row and its keys for each surface, which has a polygon at least, and for each building.
-MemoryNeeds needs_of(const PackageReader& package, Engine engine, std::span<const Cell> cells) {
+/// Means need a row and its keys for each surface, which has a polygon at least, and for each building, whose further values are
+/// those of its roofs and those of its walls.
+MemoryNeeds needs_of(const PackageReader& package, const SkySettings& sky, std::span<const Cell> cells) {
   const package::Manifest& manifest = package.manifest();
-  constexpr double bytes_of_surface = 320, bytes_of_building = 320;
-  return {static_cast<double>(manifest.polygons) * bytes_of_surface + static_cast<double>(manifest.buildings) * bytes_of_building,
-          0.0, any_traces_whole_city(package, engine, cells)};
+  constexpr double bytes_of_row = 384, bytes_of_value = sizeof(AreaMean) + sizeof(double);
+  const double of_further = bytes_of_value * static_cast<double>(columns_of(sky.further).size());
+  return {static_cast<double>(manifest.polygons) * (bytes_of_row + of_further) +
+              static_cast<double>(manifest.buildings) * (bytes_of_row + 2.0 * of_further),
+          0.0, any_traces_whole_city(package, sky.engine, cells)};
+}
+
+WantedIrradiation wanted_irradiation(const SurfaceSettings& surfaces, const Quantities& quantities) {
+  const ColumnRange columns = range_of(Quantity::irradiation, quantities);
+  return {columns.count > 0 ? std::optional(columns.first) : std::nullopt, surfaces.irradiation_threshold_kwh_m2};
 }
 
 /// Roofs and walls cell by cell, and their means. All must outlive it.
@@ -103,7 +113,9 @@ class SurfaceCells final : public CellsOfRun {
         surfaces_(surfaces),
         settings_(settings),
         on_points_(on_points),
-        placed_(cells.size()) {}
+        placed_(cells.size()),
+        surface_averages_(wanted_irradiation(surfaces, settings.sky.further)),
+        building_averages_(wanted_irradiation(surfaces, settings.sky.further)) {}
 
   [[nodiscard]] std::size_t size() const override { return cells_.size(); }
   [[nodiscard]] Cell place(std::size_t n) const override { return cells_[n]; }
@@ -149,9 +161,13 @@ class SurfaceCells final : public CellsOfRun {
   std::size_t receivers_ = 0;
 };
 
-void check(const SurfaceSettings& surfaces) {
+void check(const SurfaceSettings& surfaces, const Quantities& quantities) {
   require_one_of("choice", surfaces.choice, SurfaceChoice::all);
   require_between("spacing_m", surfaces.spacing_m, 0.05, 1000.0);
+  if (!surfaces.irradiation_threshold_kwh_m2) return;
+  require_between("irradiation_threshold_kwh_m2", *surfaces.irradiation_threshold_kwh_m2, 0.0, 100'000.0);
+  if (!quantities.irradiation)
+    throw InvalidArgument("irradiation_threshold_kwh_m2 is one of irradiation: ask for that, too (further.irradiation)");
 }
 
 }  // namespace
@@ -159,11 +175,11 @@ void check(const SurfaceSettings& surfaces) {
 SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& surfaces, const EvaluationSettings& evaluation,
                                const OnSurfacePoints& on_points, const RunSettings& run) {
   const ResolvedSettings settings = resolved(evaluation, run);
-  check(surfaces);
+  check(surfaces, evaluation.further);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
   const std::vector<Cell> cells = along_hilbert_curve(all_cells(reader.grid().cells), reader.grid().block_edge);
-  const double memory_bytes = require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, cells));
+  const double memory_bytes = require_memory(reader.manifest(), settings, needs_of(reader, settings.sky, cells));
   SurfaceCells surface_cells(reader, cells, surfaces, settings, on_points);
   EvaluationSummary summary = evaluate_cells(in_use, settings, surface_cells);
   if (settings.run.shard) return {{}, {}, std::move(summary)};

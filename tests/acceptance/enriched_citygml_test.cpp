@@ -20,7 +20,7 @@ import collections, csv, json, re, sys
 import xml.etree.ElementTree as tree
 
 before, after = (open(name, 'rb').read() for name in sys.argv[1:3])
-name = rb'(?:svf|roof|wall|covered)_\w+'
+name = rb'(?:svf|roof|wall|covered|irradiation|area)_\w+'
 version_2 = rb'<(?P<g>[\w.]+:)doubleAttribute(?: xmlns:gen="[^"]+")? name="' + name + \
     rb'"><(?P=g)value>[0-9.]+</(?P=g)value></(?P=g)doubleAttribute>'
 version_3 = rb'<(?P<c>[\w.]*:?)genericAttribute><(?P<h>[\w.]+:)DoubleAttribute(?: xmlns:gen="[^"]+")?><(?P=h)name>' + name + \
@@ -28,7 +28,7 @@ version_3 = rb'<(?P<c>[\w.]*:?)genericAttribute><(?P<h>[\w.]+:)DoubleAttribute(?
 rows = collections.defaultdict(list)
 for row in csv.DictReader(open('a.surfaces.csv')): rows[row['building']].append(row)
 buildings = {row['building']: row for row in csv.DictReader(open('a.buildings.csv'))}
-found = collections.Counter(rows=sum(map(len, rows.values())), buildings=0, surfaces=0, single=0, of_one_polygon=0, areas=0, wrong=0)
+found = collections.Counter(rows=sum(map(len, rows.values())), buildings=0, surfaces=0, single=0, of_one_polygon=0, areas=0, wrong=0, lit=0)
 found['same'] = re.sub(version_2 + b'|' + version_3, b'', after) == before
 
 def local(element): return element.tag.split('}')[1]
@@ -58,8 +58,10 @@ def area_of(polygon):
 
 def compare_surface(surface, values, building):
     of_table = ('svf_mean', 'svf_min', 'svf_max', 'area_m2', 'covered_area_m2')
-    mine = [values.get(k, '') for k in ('svf_mean', 'svf_min', 'svf_max', 'svf_area_m2', 'covered_area_m2')]
-    same = [row for row in rows[building] if [row[k] for k in of_table] == mine]
+    of_light = ('irradiation_mean', 'irradiation_kwh', 'area_above_m2')
+    mine = [values.get(k, '') for k in ('svf_mean', 'svf_min', 'svf_max', 'svf_area_m2', 'covered_area_m2', *of_light)]
+    same = [row for row in rows[building] if [row[k] for k in of_table] + [row.get(k, '') for k in of_light] == mine]
+    found['lit'] += ('irradiation_kwh' in values) == ('svf_mean' in values)
     polygons = list(polygons_of(surface))
     found['surfaces'] += 1
     if same: found['single'] += 1; rows[building].remove(same[0])
@@ -76,7 +78,7 @@ def walk(element, building):
         found['buildings'] += 'roof_area_m2' in values or 'wall_area_m2' in values
         if building in buildings:
             found['wrong'] += any(v != values.get(k, '') for k, v in buildings[building].items()
-                                  if k in ('svf_roofs', 'svf_walls') or (v != '0' and k.endswith('area_m2')))
+                                  if k in ('svf_roofs', 'svf_walls') or 'irradiation' in k or 'above' in k or (v != '0' and k.endswith('area_m2')))
     elif 'svf_area_m2' in values: compare_surface(element, values, building)
     for child in element: walk(child, building)
 walk(city, None)
@@ -92,8 +94,9 @@ class EnrichedCityGml : public RealCity {
       GTEST_SKIP() << "no python3, which reads the files";
   }
   /// Packs a city, writes it again with its values, and compares them with the tables. Returns what there is.
-  [[nodiscard]] nlohmann::json enriched(const std::string& file, const std::string& pack_options = "") const {
-    const std::string spacing = " --surfaces all --spacing 3";
+  [[nodiscard]] nlohmann::json enriched(const std::string& file, const std::string& pack_options = "",
+                                        const std::string& svf_options = "") const {
+    const std::string spacing = " --surfaces all --spacing 3" + svf_options;
     folder.must("farlod-pack " + file + " -o a.farlod --quiet --crs EPSG:25832 " + pack_options);
     folder.must("farlod-svf a.farlod -o a.gml --city " + file + spacing);
     folder.must("farlod-svf a.farlod -o a.csv --quiet" + spacing);
@@ -149,6 +152,16 @@ TEST_F(EnrichedCityGml, AGeneratedCityHasAllValues) {
   EXPECT_GT(found.at("surfaces"), 500);
   EXPECT_EQ(found.at("areas"), found.at("of_one_polygon"));
   expect_same_city();
+}
+
+TEST_F(EnrichedCityGml, AGeneratedCityHasItsIrradiation) {
+  folder.must("farlod-city -o town.gml --size 150 --lod 2 --quiet");
+  const nlohmann::json found =
+      enriched("town.gml", "", " --quantity irradiation --period 2026-06-21 --step 60 --irradiation-threshold 5");
+  EXPECT_TRUE(found.at("same").get<bool>());
+  EXPECT_EQ(found.at("wrong"), 0);
+  EXPECT_GT(found.at("surfaces"), 50);
+  EXPECT_EQ(found.at("lit"), found.at("surfaces"));
 }
 
 /// The faces of a box: floor, roof, and walls.

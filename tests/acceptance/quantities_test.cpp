@@ -119,6 +119,42 @@ TEST_F(PackedTown, IrradiationIsTheSameForEachNumberOfThreads) {
   EXPECT_EQ(folder.text_of("one.csv"), folder.text_of("four.csv"));
 }
 
+/// Sums over the receivers of a building's roofs (walls): kWh, and m² with at least the threshold.
+std::pair<double, double> sums_of(const CsvTable& receivers, const std::string& building, const std::string& kind,
+                                  double threshold) {
+  std::pair<double, double> sums{0.0, 0.0};
+  for (std::size_t n = 0; n < receivers.size(); ++n) {
+    if (receivers.text(n, "building") != building || receivers.text(n, "kind") != kind) continue;
+    const double kwh_m2 = receivers.number(n, "irradiation"), area_m2 = receivers.number(n, "area_m2");
+    sums.first += kwh_m2 * area_m2;
+    sums.second += kwh_m2 >= threshold ? area_m2 : 0.0;
+  }
+  return sums;
+}
+
+TEST_F(PackedTown, BuildingsHaveTheIrradiationOfTheirReceivers) {
+  folder.write("day.csv", day_of_weather);
+  // A roof in the open gets about 1.5 kWh/m², walls between .2 and 2
+  folder.must(
+      "farlod-svf a.farlod -o o.csv --surfaces all --spacing 4 --quantity irradiation --weather day.csv "
+      "--irradiation-threshold 1.2");
+  const CsvTable receivers = table("o.csv"), buildings = table("o.buildings.csv");
+  double above_m2 = 0.0, below_m2 = 0.0;
+  for (std::size_t n = 0; n < buildings.size(); ++n)
+    for (const std::string kind : {"roof", "wall"}) {
+      const auto [kwh, m2] = sums_of(receivers, buildings.text(n, "building"), kind, 1.2);
+      const double area_m2 = buildings.number(n, kind + "_area_m2");
+      // Areas of receivers are printed in thousandths
+      EXPECT_NEAR(buildings.number(n, kind + "_irradiation_kwh"), kwh, 1e-3 * kwh + 1e-3);
+      EXPECT_NEAR(buildings.number(n, "irradiation_" + kind + "s"), kwh / area_m2, 1e-3);
+      EXPECT_NEAR(buildings.number(n, kind + "_area_above_m2"), m2, 1e-3 * m2 + 1e-3);
+      above_m2 += m2;
+      below_m2 += area_m2 - m2;
+    }
+  EXPECT_GT(above_m2, 100.0);
+  EXPECT_GT(below_m2, 100.0);
+}
+
 TEST_F(PackedTown, IrradiationOfAClearSkyNeedsNoFile) {
   folder.must("farlod-svf a.farlod -o o.tif --grid 8 --period 2026-06-21 --quantity irradiation --linke 4");
   EXPECT_THAT(band_names(folder.path("o.tif")),
@@ -152,6 +188,10 @@ TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
   refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --albedo 0.2", {"--albedo", "0.2,0.3"});
   refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --albedo 0.2,1.5", {"--albedo", "0.2,1.5"});
   refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --sky-model blue", {"--sky-model", "isotropic"});
+  refused("-o o.csv --at 1,2 --quantity irradiation --period 2026 --irradiation-threshold 800",
+          {"--irradiation-threshold", "--surfaces"});
+  refused("-o o.csv --surfaces all --quantity shade --period 2026 --irradiation-threshold 800",
+          {"--irradiation-threshold", "irradiation"});
   refused("-o o.csv --at 1,2 --sky solid --quantity directional", {"--quantity", "--sky solid"});
 }
 

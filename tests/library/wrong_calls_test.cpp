@@ -243,6 +243,13 @@ void add_rasters(Cases& cases) {
 void add_surfaces(Cases& cases) {
   for (const double s : {nan, infinity, 0.0, -1.0, 0.01, 1e4})
     cases.add({surfaces}, "spacing " + std::to_string(s), [s](Arguments& a) { a.surfaces.spacing_m = s; });
+  cases.add({surfaces}, "a threshold of nothing", [](Arguments& a) { a.surfaces.irradiation_threshold_kwh_m2 = 800.0; });
+  for (const double t : {nan, infinity, -1.0, 100'001.0})
+    cases.add({surfaces}, "threshold " + std::to_string(t), [t](Arguments& a) {
+      a.settings.further.irradiation = true;
+      a.settings.further.light.emplace();
+      a.surfaces.irradiation_threshold_kwh_m2 = t;
+    });
   cases.add({surfaces}, "no such choice", [](Arguments& a) { a.surfaces.choice = static_cast<SurfaceChoice>(3); });
   cases.add({surfaces}, "who takes the points throws", ends::with_what_was_thrown,
             [](Arguments& a) { a.on_points = [](std::size_t, std::span<const SurfacePoint>) { throw Thrown("points"); }; });

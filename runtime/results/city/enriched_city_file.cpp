@@ -15,12 +15,15 @@
 #include <span>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
 #include "results/atomic_file.hpp"
 #include "results/output_format.hpp"
 #include "results/provenance.hpp"
+#include "results/table/area_columns.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -39,6 +42,16 @@ void add_area(CityAttributes& attributes, const std::string& name, double area_m
   attributes.emplace_back(name, std::move(text));
 }
 
+void add_area_columns(CityAttributes& attributes, const std::vector<AreaColumn>& columns) {
+  for (const AreaColumn& column : columns) {
+    if (std::isnan(column.value)) continue;
+    if (column.form == NumberForm::rounded)
+      add_area(attributes, column.name, column.value);
+    else
+      attributes.emplace_back(column.name, shortest_decimal(static_cast<float>(column.value)));
+  }
+}
+
 void take_extreme(std::optional<double>& extreme, std::optional<double> value, bool (*is_better)(double, double)) {
   if (value && (!extreme || is_better(*value, *extreme))) extreme = value;
 }
@@ -52,6 +65,11 @@ void add(SurfaceMean& sum, const SurfaceMean& next) {
   if (next.svf_mean) sum.svf_mean = sum.svf_mean.value_or(0.0) + next.area_m2 * *next.svf_mean;
   if (sum.further_mean.empty()) sum.further_mean.resize(next.further_mean.size());
   for (std::size_t k = 0; k < next.further_mean.size(); ++k) sum.further_mean[k] += next.area_m2 * next.further_mean[k];
+  if (!next.irradiation) return;
+  if (!sum.irradiation) sum.irradiation.emplace();
+  sum.irradiation->kwh += next.irradiation->kwh;
+  if (const auto& above_m2 = next.irradiation->area_above_m2)
+    sum.irradiation->area_above_m2 = sum.irradiation->area_above_m2.value_or(0.0) + *above_m2;
 }
 
 void divide(SurfaceMean& sum) {
@@ -72,13 +90,16 @@ SurfaceMean merged(std::span<const SurfaceMean* const> surfaces) {
 std::vector<std::string> attribute_names_of_surfaces(const AnswerColumns& columns) {
   const std::string& q = columns.quantity;
   std::vector<std::string> names{q + "_mean", q + "_min", q + "_max", "svf_area_m2", "covered_area_m2"};
-  for (const ColumnDescription& column : columns.further) names.push_back(column.name + "_mean");
+  for (const AreaColumn& column : area_columns_of(SurfaceMean{}, columns)) names.push_back(column.name);
   return names;
 }
 
 std::vector<std::string> attribute_names_of_buildings(const AnswerColumns& columns) {
-  return {columns.quantity + "_roofs", columns.quantity + "_walls", "roof_area_m2", "wall_area_m2",
-          "covered_roof_area_m2",      "covered_wall_area_m2"};
+  const std::string& q = columns.quantity;
+  std::vector<std::string> names{q + "_roofs",   q + "_walls",           "roof_area_m2",
+                                 "wall_area_m2", "covered_roof_area_m2", "covered_wall_area_m2"};
+  for (const AreaColumn& column : area_columns_of(BuildingMean{}, columns)) names.push_back(column.name);
+  return names;
 }
 
 /// The attributes of one surface of a city file that is made of these: means are weighted by area, areas are added. Where it is
@@ -92,9 +113,7 @@ CityAttributes attributes_of(std::span<const SurfaceMean* const> surfaces, const
   add_svf(attributes, names[2], mean.svf_max);
   add_area(attributes, names[3], mean.area_m2);
   add_area(attributes, names[4], mean.covered_area_m2);
-  for (std::size_t k = 0; k < columns.further.size(); ++k)
-    if (const float value = further_value(mean.further_mean, k); !std::isnan(value))
-      attributes.emplace_back(names[5 + k], shortest_decimal(value));
+  add_area_columns(attributes, area_columns_of(mean, columns));
   return attributes;
 }
 
@@ -110,6 +129,7 @@ CityAttributes attributes_of(const BuildingMean& building, const AnswerColumns& 
   if (has_walls) add_area(attributes, names[3], building.wall_area_m2);
   if (has_roofs) add_area(attributes, names[4], building.covered_roof_area_m2);
   if (has_walls) add_area(attributes, names[5], building.covered_wall_area_m2);
+  add_area_columns(attributes, area_columns_of(building, columns));
   return attributes;
 }
 
@@ -126,6 +146,10 @@ BuildingMean mean_of(std::span<const SurfaceMean* const> surfaces) {
   mean.covered_wall_area_m2 = walls.covered_area_m2;
   mean.svf_roofs = roofs.svf_mean;
   mean.svf_walls = walls.svf_mean;
+  mean.further_roofs = std::move(roofs.further_mean);
+  mean.further_walls = std::move(walls.further_mean);
+  mean.roof_irradiation = roofs.irradiation;
+  mean.wall_irradiation = walls.irradiation;
   return mean;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/expects.hpp"
+#include "results/table/area_columns.hpp"
 #include "results/table/sky_table_csv.hpp"
 
 namespace farlod {
@@ -22,6 +23,10 @@ FieldValue millimetres(const std::optional<double>& value) { return value ? mill
 FieldValue share(const std::optional<double>& value) { return value ? share(*value) : FieldValue(); }
 FieldValue whole(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 FieldValue number(float value) { return std::isnan(value) ? FieldValue() : FieldValue(static_cast<double>(value)); }
+FieldValue number(const AreaColumn& column) {
+  if (column.form == NumberForm::shortest || std::isnan(column.value)) return number(static_cast<float>(column.value));
+  return millimetres(column.value);
+}
 
 void add_fields(FeatureLayer& layer, FieldType type, std::initializer_list<std::string> names) {
   for (const std::string& name : names) layer.fields.push_back({name, type});
@@ -149,7 +154,8 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
   add_fields(layer, FieldType::real, {"azimuth_deg", "tilt_deg", "area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
   add_fields(layer, FieldType::real, {quantity + "_mean", quantity + "_min", quantity + "_max", "covered_area_m2"});
-  for (const ColumnDescription& column : frame.columns.further) add_fields(layer, FieldType::real, {column.name + "_mean"});
+  for (const AreaColumn& column : area_columns_of(SurfaceMean{}, frame.columns))
+    add_fields(layer, FieldType::real, {column.name});
   writer.begin(layer);
   for (const SurfaceMean& r : rows) {
     FeatureRow feature{
@@ -158,8 +164,7 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
         {std::string_view(r.building), whole(r.surface), word_for(surface_kind_words, r.kind), millimetres(r.azimuth.degrees()),
          millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata), share(r.svf_mean),
          share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
-    for (std::size_t n = 0; n < frame.columns.further.size(); ++n)
-      feature.values.push_back(number(further_value(r.further_mean, n)));
+    for (const AreaColumn& column : area_columns_of(r, frame.columns)) feature.values.push_back(number(column));
     writer.add(feature);
   }
 }
@@ -170,13 +175,18 @@ void write_buildings_as_features(std::span<const BuildingMean> rows, const Table
   add_fields(layer, FieldType::real, {"roof_area_m2", "wall_area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
   add_fields(layer, FieldType::real, {quantity + "_roofs", quantity + "_walls", "covered_roof_area_m2", "covered_wall_area_m2"});
+  for (const AreaColumn& column : area_columns_of(BuildingMean{}, frame.columns))
+    add_fields(layer, FieldType::real, {column.name});
   writer.begin(layer);
-  for (const BuildingMean& r : rows)
-    writer.add({{},
-                {},
-                {std::string_view(r.building), millimetres(r.roof_area_m2), millimetres(r.wall_area_m2), whole(r.receivers),
-                 whole(r.nodata), share(r.svf_roofs), share(r.svf_walls), millimetres(r.covered_roof_area_m2),
-                 millimetres(r.covered_wall_area_m2)}});
+  for (const BuildingMean& r : rows) {
+    FeatureRow feature{{},
+                       {},
+                       {std::string_view(r.building), millimetres(r.roof_area_m2), millimetres(r.wall_area_m2),
+                        whole(r.receivers), whole(r.nodata), share(r.svf_roofs), share(r.svf_walls),
+                        millimetres(r.covered_roof_area_m2), millimetres(r.covered_wall_area_m2)}};
+    for (const AreaColumn& column : area_columns_of(r, frame.columns)) feature.values.push_back(number(column));
+    writer.add(feature);
+  }
 }
 
 std::vector<std::filesystem::path> SurfaceTablesInLayers::commit(std::span<const SurfaceMean> surfaces,

@@ -8,6 +8,7 @@
 
 #include "base/expects.hpp"
 #include "results/atomic_file.hpp"
+#include "results/table/area_columns.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -69,18 +70,29 @@ void add_surface_point(const SurfacePoint& r, CsvText& text) {
   text.millimetres(r.azimuth.degrees()).millimetres(r.tilt.degrees()).millimetres(r.area_m2);
 }
 
+/// The rest of a row.
+void add_area_columns(const std::vector<AreaColumn>& list, CsvText& text) {
+  for (const AreaColumn& column : list) {
+    if (column.form == NumberForm::rounded && !std::isnan(column.value))
+      text.millimetres(column.value);
+    else
+      text.number(static_cast<float>(column.value));
+  }
+  text.end_row();
+}
+
 void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& text) {
   text.field(r.building).whole(r.surface).field(word_for(surface_kind_words, r.kind));
   text.millimetres(r.azimuth.degrees()).millimetres(r.tilt.degrees()).millimetres(r.area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).millimetres(r.covered_area_m2);
-  for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_value(r.further_mean, k));
-  text.end_row();
+  add_area_columns(area_columns_of(r, columns), text);
 }
 
-void add_building(const BuildingMean& r, CsvText& text) {
+void add_building(const BuildingMean& r, const AnswerColumns& columns, CsvText& text) {
   text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls);
-  text.millimetres(r.covered_roof_area_m2).millimetres(r.covered_wall_area_m2).end_row();
+  text.millimetres(r.covered_roof_area_m2).millimetres(r.covered_wall_area_m2);
+  add_area_columns(area_columns_of(r, columns), text);
 }
 
 }  // namespace
@@ -192,7 +204,7 @@ void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& 
   CsvText header;
   header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata",
                  columns.quantity + "_mean", columns.quantity + "_min", columns.quantity + "_max", "covered_area_m2"});
-  for (const ColumnDescription& column : columns.further) header.field(column.name + "_mean");
+  for (const AreaColumn& column : area_columns_of(SurfaceMean{}, columns)) header.field(column.name);
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], columns, text); });
 }
@@ -201,8 +213,9 @@ void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns
   CsvText header;
   header.fields({"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", columns.quantity + "_roofs",
                  columns.quantity + "_walls", "covered_roof_area_m2", "covered_wall_area_m2"});
+  for (const AreaColumn& column : area_columns_of(BuildingMean{}, columns)) header.field(column.name);
   header.end_row();
-  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], text); });
+  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], columns, text); });
 }
 
 std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceMean> surfaces,

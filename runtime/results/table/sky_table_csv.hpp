@@ -71,11 +71,11 @@ class SurfacePointsCsv {
 };
 
 /// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
-/// QUANTITY_max, covered_area_m2, and COLUMN_mean of each further column.
+/// QUANTITY_max, covered_area_m2, and those of area_columns_of().
 void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
 /// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls, covered_roof_area_m2,
-/// covered_wall_area_m2.
+/// covered_wall_area_m2, and those of area_columns_of().
 void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
 /// The three tables of surfaces: NAME.csv, NAME.surfaces.csv, NAME.buildings.csv.

@@ -36,11 +36,15 @@ struct PointRow {
 /// Whether tables of receivers have columns for the bounds.
 enum class BoundsColumns { no, yes };
 
+/// Whether tables of surfaces and buildings have columns for the area that gets at least some irradiation.
+enum class ThresholdColumns { no, yes };
+
 /// The columns of the answers: QUANTITY, with bounds QUANTITY_low and QUANTITY_high, then further ones.
 struct AnswerColumns {
   std::string quantity;  ///< "svf" or "svf_solid"
   BoundsColumns bounds = BoundsColumns::no;
   std::vector<ColumnDescription> further = {};
+  ThresholdColumns areas_above = ThresholdColumns::no;
 };
 
 /// Columns of a table, and what its file says of the whole of it.

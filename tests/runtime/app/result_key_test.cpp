@@ -28,7 +28,7 @@ struct Change {
                           points_file, points_crs, points_layer, surfaces, city_file, at, placing, bbox, mask, evaluation,
                           sunshine, light_request, preview, verify_file, histogram, projection, memory_limit, resume, merge,
                           shard, run] = o;
-  [[maybe_unused]] auto& [choice, spacing_m] = surfaces;
+  [[maybe_unused]] auto& [choice, spacing_m, irradiation_threshold] = surfaces;
   [[maybe_unused]] auto& [above, height_m] = placing;
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
       evaluation;
@@ -193,6 +193,7 @@ TEST_F(ResultKey, HasNothingThatChangesNoValue) {
         Change{"the package's folder", [](SvfOptions& o) { o.package = "elsewhere/town.farlod"; }},
         Change{"--preview", [](SvfOptions& o) { o.preview_file = "b.png"; }},
         Change{"--verify", [](SvfOptions& o) { o.evaluation.verify = 100, o.verify_file = "b.csv"; }},
+        Change{"--irradiation-threshold", [](SvfOptions& o) { o.surfaces.irradiation_threshold_kwh_m2 = 800.0; }},
         Change{"--histogram", [](SvfOptions& o) { o.histogram_file = "b.csv"; }},
         Change{"--projection", [](SvfOptions& o) { o.projection = SkyProjection::equidistant; }},
         Change{"--memory-limit", [](SvfOptions& o) { o.memory_limit_mib = 100; }},
@@ -215,6 +216,8 @@ TEST_F(ResultKey, IsTheCommandLineOfAResult) {
   o.evaluation.further.svf_total = true;
   EXPECT_EQ(provenance_of(o, package).settings,
             "--grid 2 --height 1.5 --on-surface --engine auto --sky cosine --bounds --quantity svf,svf_total --canopy-rule umep");
+  o.surfaces.irradiation_threshold_kwh_m2 = 800.5;
+  EXPECT_TRUE(provenance_of(o, package).settings.ends_with(" --canopy-rule umep --irradiation-threshold 800.5"));
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "run/facing.hpp"
 
@@ -85,6 +87,59 @@ TEST(BuildingAverages, TellRoofsFromWalls) {
   EXPECT_EQ(rows[1].covered_wall_area_m2, 0.0);
   EXPECT_EQ(rows[1].building, "a");
   EXPECT_FALSE(rows[1].svf_roofs || rows[1].svf_walls);
+}
+
+/// The same run with a second value, and the irradiation in kWh/m² behind it: half of the wall and the roof of b get 800.
+std::vector<std::pair<PlaceInRun, SurfacePoint>> irradiated_run() {
+  auto run = small_run();
+  run[0].second.further = {0.5F, 800.0F};
+  run[2].second.further = {std::nanf(""), 400.0F};
+  run[3].second.further = {0.25F, 1200.0F};
+  return run;
+}
+
+template <class Averages>
+auto irradiated_rows(const WantedIrradiation& wanted) {
+  Averages averages(wanted);
+  for (const auto& [place, row] : irradiated_run()) averages.add(place, row);
+  return averages.rows();
+}
+
+TEST(SurfaceAverages, SumIrradiationOverTheArea) {
+  const auto rows = irradiated_rows<SurfaceAverages>({1, 800.0});
+  ASSERT_TRUE(rows[0].irradiation);
+  EXPECT_EQ(rows[0].irradiation->kwh, 2.0 * 800.0 + 6.0 * 400.0);
+  EXPECT_EQ(rows[0].irradiation->area_above_m2, 2.0);
+  EXPECT_EQ(rows[0].further_mean, (std::vector{0.5, (2.0 * 800.0 + 6.0 * 400.0) / 8.0}));
+  EXPECT_FALSE(rows[1].irradiation) << "no receiver of this roof has an answer";
+}
+
+TEST(SurfaceAverages, ThatGetLessThanTheThresholdHaveNoAreaAboveIt) {
+  const auto rows = irradiated_rows<SurfaceAverages>({1, 1200.5});
+  for (const SurfaceMean& row : rows)
+    if (row.irradiation) {
+      EXPECT_EQ(row.irradiation->area_above_m2, 0.0);
+    }
+}
+
+TEST(SurfaceAverages, KnowNothingOfIrradiationThatNobodyAskedFor) {
+  EXPECT_FALSE(irradiated_rows<SurfaceAverages>({}).front().irradiation);
+  const auto rows = irradiated_rows<SurfaceAverages>({1, {}});
+  ASSERT_TRUE(rows[0].irradiation);
+  EXPECT_FALSE(rows[0].irradiation->area_above_m2);
+}
+
+TEST(BuildingAverages, TellTheIrradiationOfRoofsFromThatOfWalls) {
+  const auto rows = irradiated_rows<BuildingAverages>({1, 800.0});
+  ASSERT_TRUE(rows[0].roof_irradiation && rows[0].wall_irradiation);
+  EXPECT_EQ(rows[0].roof_irradiation->kwh, 1200.0);
+  EXPECT_EQ(rows[0].roof_irradiation->area_above_m2, 1.0);
+  EXPECT_EQ(rows[0].wall_irradiation->kwh, 2.0 * 800.0 + 6.0 * 400.0);
+  EXPECT_EQ(rows[0].wall_irradiation->area_above_m2, 2.0);
+  EXPECT_EQ(rows[0].further_roofs, (std::vector{0.25, 1200.0}));
+  EXPECT_EQ(rows[0].further_walls, (std::vector{0.5, 500.0}));
+  EXPECT_FALSE(rows[1].roof_irradiation || rows[1].wall_irradiation);
+  EXPECT_TRUE(rows[1].further_roofs.empty() && rows[1].further_walls.empty());
 }
 
 /// Of a few products and sums of numbers up to 1, and of degrees up to 360.

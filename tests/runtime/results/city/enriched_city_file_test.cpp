@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <fstream>
 
 #include "farlod/error.hpp"
@@ -128,6 +129,44 @@ TEST_F(EnrichedCityFileTest, FurtherQuantitiesAreWeightedByArea) {
   EXPECT_THAT(text, HasSubstr("\"svf_solid_mean\":0.250000"));
   EXPECT_THAT(text, HasSubstr("\"svfN_mean\":0.325}"));
   EXPECT_THAT(text, HasSubstr("\"svfN_mean\":0.125 }"));
+}
+
+/// kWh/m² of two roofs and a wall, and what they come to.
+SurfaceMeans irradiated_means() {
+  SurfaceMeans means = means_of_b();
+  const std::array<double, 3> kwh_m2{1000.0, 800.0, 500.0}, above_m2{100.0, 60.5, 0.0};
+  for (std::size_t n = 0; n < 3; ++n) {
+    means.surfaces[n].further_mean = {kwh_m2[n]};
+    means.surfaces[n].irradiation = {kwh_m2[n] * means.surfaces[n].area_m2, above_m2[n]};
+  }
+  means.buildings[0].further_roofs = {160000.0 / 175.0};
+  means.buildings[0].further_walls = {500.0};
+  means.buildings[0].roof_irradiation = {160000.0, 160.5};
+  means.buildings[0].wall_irradiation = {40000.0, 0.0};
+  return means;
+}
+
+TEST_F(EnrichedCityFileTest, IrradiationIsSummedOverTheAreasOfASurface) {
+  const AnswerColumns columns{"svf", BoundsColumns::no, {{"irradiation"}}, ThresholdColumns::yes};
+  const std::string text = enriched(file_with(building("") + "}"), irradiated_means(), columns);
+  EXPECT_THAT(text, HasSubstr(std::string(of_roof) +
+                              ",\"irradiation_mean\":914.2857,\"irradiation_kwh\":160000,\"area_above_m2\":160.5}"));
+  EXPECT_THAT(text,
+              HasSubstr(std::string(of_wall) + ",\"irradiation_mean\":500,\"irradiation_kwh\":40000,\"area_above_m2\":0 }"));
+  EXPECT_THAT(text, HasSubstr(std::string(of_building) +
+                              ",\"irradiation_roofs\":914.2857,\"irradiation_walls\":500,\"roof_irradiation_kwh\":160000,"
+                              "\"wall_irradiation_kwh\":40000,\"roof_area_above_m2\":160.5,\"wall_area_above_m2\":0}"));
+}
+
+TEST_F(EnrichedCityFileTest, APartHasTheIrradiationOfItsSurfaces) {
+  const std::string roofs = geometry("[[[0,1,4,3]],[[1,2,5,4]]]", ""), wall = geometry("[[[0,3,7,6]]]", "");
+  const std::string text = enriched(file_with("\"p\":{\"type\":\"BuildingPart\",\"parents\":[\"b\"],\"geometry\":[" + roofs +
+                                              "]},\"b\":{\"type\":\"Building\"},\"q\":{\"type\":\"BuildingPart\",\"geometry\":[" +
+                                              wall + "],\"parents\":[\"b\"]}"),
+                                    irradiated_means(), {"svf", BoundsColumns::no, {{"irradiation"}}});
+  EXPECT_THAT(text,
+              HasSubstr(",\"covered_roof_area_m2\":25,\"irradiation_roofs\":914.2857,\"roof_irradiation_kwh\":160000}},\"b\""));
+  EXPECT_THAT(text, HasSubstr(",\"covered_wall_area_m2\":0,\"irradiation_walls\":500,\"wall_irradiation_kwh\":40000}}}"));
 }
 
 TEST_F(EnrichedCityFileTest, PartsHaveTheValuesOfTheirSurfaces) {

@@ -191,6 +191,38 @@ TEST(BuildingsCsv, IsAsDocumented) {
             "b1,100,0,25,0,0.750000,,2.5,0\n");
 }
 
+/// Of a run that asked for irradiation, and for the area that gets some of it.
+const AnswerColumns irradiated{"svf", BoundsColumns::no, {{"irradiation"}, {"shade"}}, ThresholdColumns::yes};
+
+TEST(SurfacesCsv, HaveTheSumOfIrradiation) {
+  const scenes::TemporaryFolder folder;
+  std::vector<SurfaceMean> rows(2);
+  rows[0] = {
+      "b1", 0, SurfaceKind::roof, {}, {}, 100.5, 4.5, 25, 1, 0.75, 0.5, 1.0, {1000.25, 0.5}, AreaIrradiation{100525.125, 90.0}};
+  rows[1].building = "b2";
+  write_surfaces_csv(rows, irradiated, folder.file("a.csv"));
+  const std::string text = scenes::text_of(folder.file("a.csv"));
+  EXPECT_THAT(text, testing::HasSubstr(",covered_area_m2,irradiation_mean,shade_mean,irradiation_kwh,area_above_m2\n"));
+  EXPECT_THAT(text, testing::HasSubstr(",4.5,1000.25,0.5,100525.125,90\n"));
+  EXPECT_TRUE(text.ends_with("\nb2,0,unknown,0,0,0,0,0,,,,0,,,,\n")) << text;
+}
+
+TEST(BuildingsCsv, HaveFurtherColumnsOfRoofsAndWalls) {
+  const scenes::TemporaryFolder folder;
+  std::vector<BuildingMean> rows{{"b1", 100.0, 50.0, 0.0, 0.0, 25, 0, 0.75, 0.5}, {"b2", 0.0, 0.0, 9.0, 0.0, 1, 1}};
+  rows[0].further_roofs = {1000.25, 0.5};
+  rows[0].further_walls = {500.5, 0.25};
+  rows[0].roof_irradiation = {100025.0, 90.5};
+  rows[0].wall_irradiation = {25025.0, 0.0};
+  write_buildings_csv(rows, irradiated, folder.file("a.csv"));
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
+            "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls,covered_roof_area_m2,covered_wall_area_m2,"
+            "irradiation_roofs,shade_roofs,irradiation_walls,shade_walls,roof_irradiation_kwh,wall_irradiation_kwh,"
+            "roof_area_above_m2,wall_area_above_m2\n"
+            "b1,100,50,25,0,0.750000,0.500000,0,0,1000.25,0.5,500.5,0.25,100025,25025,90.5,0\n"
+            "b2,0,0,1,1,,,9,0,,,,,,,,\n");
+}
+
 /// A PLY file, read by its own header.
 struct Ply {
   std::vector<std::string> names, types;

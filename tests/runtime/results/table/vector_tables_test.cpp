@@ -198,7 +198,7 @@ std::vector<std::filesystem::path> write_surfaces(const std::filesystem::path& p
     rows[n].p_projected = {500000.0 + static_cast<double>(n), 5700000.0, 10.0};
     if (n > 0) rows[n].svf = 0.25;
   }
-  TableFrame frame{{"svf", BoundsColumns::no, {{"sun_h"}}}, small_raster().crs_wkt, 25832};
+  TableFrame frame{{"svf", BoundsColumns::no, {{"irradiation"}}, ThresholdColumns::yes}, small_raster().crs_wkt, 25832};
   const auto writer = output_format_of(path)->surface_tables_writer(frame, path);
   rows[0].further = {0.5F};
   rows[1].further = {1.5F};
@@ -211,6 +211,8 @@ std::vector<std::filesystem::path> write_surfaces(const std::filesystem::path& p
   BuildingMean building;
   building.building = "b2";
   building.svf_walls = 0.125;
+  building.further_walls = {500.5};
+  building.wall_irradiation = {1001.0, 2.0};
   return writer->commit(std::vector{mean}, std::vector{building});
 }
 
@@ -225,14 +227,21 @@ TEST(GeoPackage, HasThreeLayersOfSurfaces) {
   for (const auto& feature : receivers) buildings.emplace_back(feature->GetFieldAsString("building"));
   EXPECT_THAT(buildings, ElementsAre("b0", "b1", "b2"));
   const auto by_building = features_by(receivers, "building");
-  EXPECT_EQ(by_building.at("b1")->GetFieldAsDouble("sun_h"), 1.5);
-  EXPECT_FALSE(by_building.at("b2")->IsFieldSetAndNotNull(by_building.at("b2")->GetFieldIndex("sun_h")));
+  EXPECT_EQ(by_building.at("b1")->GetFieldAsDouble("irradiation"), 1.5);
+  EXPECT_FALSE(by_building.at("b2")->IsFieldSetAndNotNull(by_building.at("b2")->GetFieldIndex("irradiation")));
   EXPECT_STREQ(by_building.at("b0")->GetFieldAsString("kind"), "wall");
   OGRLayer& surfaces = *dataset->GetLayerByName("surfaces");
   EXPECT_EQ(surfaces.GetGeomType(), wkbNone);
   EXPECT_EQ(features_by(surfaces, "building").at("b1")->GetFieldAsInteger64("receivers"), 17);
+  EXPECT_GE(surfaces.GetLayerDefn()->GetFieldIndex("irradiation_kwh"), 0);
   OGRLayer& of_buildings = *dataset->GetLayerByName("buildings");
-  EXPECT_EQ(features_by(of_buildings, "building").at("b2")->GetFieldAsDouble("svf_walls"), 0.125);
+  const auto buildings_by_id = features_by(of_buildings, "building");
+  const auto& b2 = buildings_by_id.at("b2");
+  EXPECT_EQ(b2->GetFieldAsDouble("svf_walls"), 0.125);
+  EXPECT_EQ(b2->GetFieldAsDouble("irradiation_walls"), 500.5);
+  EXPECT_EQ(b2->GetFieldAsDouble("wall_irradiation_kwh"), 1001.0);
+  EXPECT_EQ(b2->GetFieldAsDouble("wall_area_above_m2"), 2.0);
+  EXPECT_FALSE(b2->IsFieldSetAndNotNull(b2->GetFieldIndex("roof_irradiation_kwh")));
 }
 
 TEST(VectorTables, OtherFormatsHaveTheTablesWithoutPlacesAsCsv) {
