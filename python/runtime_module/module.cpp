@@ -5,6 +5,7 @@
 #include "farlod/version.hpp"
 #include "python/binding/exceptions.hpp"
 #include "python/runtime_module/evaluation.hpp"
+#include "python/runtime_module/light.hpp"
 #include "python/runtime_module/package.hpp"
 #include "python/runtime_module/settings.hpp"
 
@@ -14,6 +15,7 @@ PYBIND11_MODULE(_runtime, module) {
   module.attr("version") = farlod::software_version;
   farlod::add_package(module);
   farlod::add_settings(module);
+  farlod::add_weather(module);
   farlod::add_evaluation(module);
   farlod::add_surfaces(module);
 }

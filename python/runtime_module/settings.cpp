@@ -18,6 +18,7 @@
 #include "farlod/region.hpp"
 #include "farlod/surfaces.hpp"
 #include "python/binding/word.hpp"
+#include "python/runtime_module/light.hpp"
 
 namespace py = pybind11;
 
@@ -50,43 +51,6 @@ std::vector<SunPosition> sun_positions(const std::vector<double>& azimuth_deg, c
   return positions;
 }
 
-/// Intervals of light as Python has them: an array for each of their members.
-struct LightColumns {
-  const std::vector<double>&azimuth_deg, &elevation_deg, &direct_normal_w_m2, &diffuse_w_m2, &hours, &extraterrestrial_w_m2,
-      &month;
-};
-
-/// In each interval the sun stands still.
-std::vector<LightInterval> light_intervals(const LightColumns& of) {
-  std::vector<LightInterval> intervals(of.hours.size());
-  for (const std::vector<double>* column :
-       {&of.azimuth_deg, &of.elevation_deg, &of.direct_normal_w_m2, &of.diffuse_w_m2, &of.extraterrestrial_w_m2, &of.month})
-    if (column->size() != intervals.size())
-      throw InvalidArgument("the columns of light are not of one length: give one number of each for each interval");
-  for (std::size_t k = 0; k < intervals.size(); ++k) {
-    if (!(1.0 <= of.month[k] && of.month[k] <= 12.0))
-      throw InvalidArgument("a month is " + std::to_string(of.month[k]) + ": give a number from 1 to 12");
-    const SunPosition sun{Angle::degrees(of.azimuth_deg[k]), Angle::degrees(of.elevation_deg[k]), of.hours[k]};
-    if (!(of.elevation_deg[k] <= 0.0)) intervals[k].sun = {sun};
-    intervals[k].hours = of.hours[k];
-    intervals[k].direct_normal_w_m2 = of.direct_normal_w_m2[k];
-    intervals[k].diffuse_w_m2 = of.diffuse_w_m2[k];
-    intervals[k].extraterrestrial_w_m2 = of.extraterrestrial_w_m2[k];
-    intervals[k].month = static_cast<unsigned>(of.month[k]);
-  }
-  return intervals;
-}
-
-void set_light(Quantities& quantities, const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
-               const std::vector<double>& direct_normal_w_m2, const std::vector<double>& diffuse_w_m2,
-               const std::vector<double>& hours, const std::vector<double>& extraterrestrial_w_m2,
-               const std::vector<double>& month, const std::string& sky_model, double ground_albedo, double facade_albedo,
-               bool by_month) {
-  quantities.light =
-      Light{light_intervals({azimuth_deg, elevation_deg, direct_normal_w_m2, diffuse_w_m2, hours, extraterrestrial_w_m2, month}),
-            meaning_of("sky_model", sky_model, sky_model_words), ground_albedo, facade_albedo, by_month};
-}
-
 using RingInPython = std::vector<std::pair<double, double>>;
 
 std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
@@ -117,16 +81,10 @@ void add_canopy(py::class_<Quantities>& quantities) {
           py::arg("rule"));
 }
 
-void add_light(py::class_<Quantities>& exposed) {
-  exposed.def("set_light", &set_light, py::arg("azimuth_deg"), py::arg("elevation_deg"), py::arg("direct_normal_w_m2"),
-              py::arg("diffuse_w_m2"), py::arg("hours"), py::arg("extraterrestrial_w_m2"), py::arg("month"), py::arg("sky_model"),
-              py::arg("ground_albedo"), py::arg("facade_albedo"), py::arg("by_month"));
-}
-
 void add_quantities(py::module_& module) {
   py::class_<Quantities> exposed(module, "Quantities");
   add_canopy(exposed);
-  add_light(exposed);
+  add_light_of(exposed);
   exposed.def(py::init<>())
       .def(
           "ask",

@@ -54,20 +54,24 @@ py::array_t<double> further_of(const std::vector<Row>& rows, std::size_t columns
 
 py::dict dict_of(const std::vector<SurfaceMean>& surfaces, std::size_t further_columns) {
   using Row = SurfaceMean;
-  return py::dict("building"_a = buildings_of(surfaces),
-                  "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }),
-                  "kind"_a = column<std::uint8_t>(surfaces, [](const Row& s) { return s.kind; }),
-                  "azimuth_deg"_a = column<double>(surfaces, [](const Row& s) { return s.azimuth.degrees(); }),
-                  "tilt_deg"_a = column<double>(surfaces, [](const Row& s) { return s.tilt.degrees(); }),
-                  "area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.area_m2; }),
-                  "covered_area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.covered_area_m2; }),
-                  "receivers"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.receivers; }),
-                  "nodata"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.nodata; }),
-                  "svf_mean"_a = column<double>(surfaces, [](const Row& s) { return s.svf_mean.value_or(no_data); }),
-                  "svf_min"_a = column<double>(surfaces, [](const Row& s) { return s.svf_min.value_or(no_data); }),
-                  "svf_max"_a = column<double>(surfaces, [](const Row& s) { return s.svf_max.value_or(no_data); }),
-                  "further"_a = further_of(
-                      surfaces, further_columns, [](const Row& s) -> const auto& { return s.further_mean; }));
+  return py::dict(
+      "building"_a = buildings_of(surfaces),
+      "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }),
+      "kind"_a = column<std::uint8_t>(surfaces, [](const Row& s) { return s.kind; }),
+      "azimuth_deg"_a = column<double>(surfaces, [](const Row& s) { return s.azimuth.degrees(); }),
+      "tilt_deg"_a = column<double>(surfaces, [](const Row& s) { return s.tilt.degrees(); }),
+      "area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.area_m2; }),
+      "covered_area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.covered_area_m2; }),
+      "receivers"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.receivers; }),
+      "nodata"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.nodata; }),
+      "svf_mean"_a = column<double>(surfaces, [](const Row& s) { return s.svf_mean.value_or(no_data); }),
+      "svf_min"_a = column<double>(surfaces, [](const Row& s) { return s.svf_min.value_or(no_data); }),
+      "svf_max"_a = column<double>(surfaces, [](const Row& s) { return s.svf_max.value_or(no_data); }),
+      "irradiation_kwh"_a = column<double>(surfaces, [](const Row& s) { return s.irradiation ? s.irradiation->kwh : no_data; }),
+      "area_above_m2"_a = column<double>(
+          surfaces, [](const Row& s) { return s.irradiation ? s.irradiation->area_above_m2.value_or(no_data) : no_data; }),
+      "further"_a = further_of(
+          surfaces, further_columns, [](const Row& s) -> const auto& { return s.further_mean; }));
 }
 
 py::dict dict_of(const std::vector<SurfacePoint>& points, std::size_t further_columns) {
@@ -88,9 +92,10 @@ py::dict dict_of(const std::vector<SurfacePoint>& points, std::size_t further_co
                       points, further_columns, [](const Row& p) -> const auto& { return p.further; }));
 }
 
-py::dict evaluate_surfaces_in_python(const Package& package, const std::string& which, double spacing_m, bool wants_points,
+py::dict evaluate_surfaces_in_python(const Package& package, const std::string& which, double spacing_m,
+                                     std::optional<double> irradiation_threshold_kwh_m2, bool wants_points,
                                      const EvaluationSettings& settings, const CallerSettings& caller) {
-  const SurfaceSettings surfaces{meaning_of("which", which, surface_choice_words), spacing_m};
+  const SurfaceSettings surfaces{meaning_of("which", which, surface_choice_words), spacing_m, irradiation_threshold_kwh_m2};
   std::vector<SurfacePoint> points;
   const OnSurfacePoints keep = [&points](std::size_t, std::span<const SurfacePoint> of_cell) {
     points.insert(points.end(), of_cell.begin(), of_cell.end());
@@ -108,7 +113,7 @@ py::dict evaluate_surfaces_in_python(const Package& package, const std::string& 
 
 void add_surfaces(py::module_& module) {
   module.def("evaluate_surfaces", &evaluate_surfaces_in_python, py::arg("package"), py::arg("which"), py::arg("spacing_m"),
-             py::arg("points"), py::arg("settings"), py::arg("caller"));
+             py::arg("irradiation_threshold_kwh_m2"), py::arg("points"), py::arg("settings"), py::arg("caller"));
 }
 
 }  // namespace farlod

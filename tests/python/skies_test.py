@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import matplotlib
 import numpy as np
 import pytest
 import xarray
-from conftest import CANYON_HEIGHT, CANYON_WIDTH, points_of
+from conftest import CANYON_HEIGHT, CANYON_WIDTH, points_of, run_program
 
 import farlod
 
@@ -71,11 +74,83 @@ def test_sun_over_a_street(canyon: farlod.City) -> None:
 
 
 def test_light_in_a_street(canyon: farlod.City) -> None:
-    light = canyon.irradiation([STREET], [0.0, 0.0], [50.0, -5.0], 0.0, [1000.0, 0.0], sky_model="isotropic", month=[6, 12], height=HEIGHT)
+    light = farlod.Light([0.0, 0.0], [50.0, -5.0], 0.0, [1000.0, 0.0], sky_model="isotropic", month=[6, 12])
+    found = canyon.irradiation([STREET], light, height=HEIGHT, quantities=["shade"])
     svf = float(canyon.svf([STREET], height=HEIGHT)[0])
-    assert float(light["irradiation_diffuse"][0]) == pytest.approx(svf, abs=1e-4)
-    assert float(light["irradiation_06"][0]) == pytest.approx(float(light["irradiation"][0]))
-    assert float(light["irradiation_12"][0]) == 0.0 and float(light["irradiation_reflected"][0]) > 0.0
+    assert float(found.irradiation_diffuse[0]) == pytest.approx(svf, abs=1e-4)
+    months = found.irradiation_by_month
+    assert months.dims == ("point", "month") and months.month.values.tolist() == [6, 12]
+    assert months.attrs["units"] == found.irradiation.attrs["units"] == "kW h m-2"
+    assert float(months.sel(month=6)[0]) == pytest.approx(float(found.irradiation[0]))
+    assert float(months.sel(month=12)[0]) == 0.0 and float(found.irradiation_reflected[0]) > 0.0
+    assert float(found.shade[0]) == 0.0  # along the street
+
+
+EPW_ROW = "2026,3,20,{hour},0,?9?9?9,10,5,70,101000,0,0,300,{diffuse},0,{diffuse},0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0"
+
+
+def write_epw(path: Path, latitude: float, longitude: float) -> Path:
+    """A day without sun, and from 10 to 14 h with 100 W/m² of the sky."""
+    rows = [EPW_ROW.format(hour=hour, diffuse=100 if 10 < hour <= 14 else 0) for hour in range(1, 25)]
+    head = [f"LOCATION,Village,-,-,made up,0,{latitude},{longitude},1.0,100.0", "DESIGN CONDITIONS,0", "TYPICAL/EXTREME PERIODS,0"]
+    head += ["GROUND TEMPERATURES,0", "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0", "COMMENTS 1,", "COMMENTS 2,"]
+    path.write_text("\n".join([*head, "DATA PERIODS,1,1,Data,Friday,3/20,3/20", *rows]) + "\n", encoding="utf-8")
+    return path
+
+
+def test_light_of_a_weather_file(canyon: farlod.City, tmp_path: Path) -> None:
+    longitude, latitude = canyon._place()
+    light = canyon.light(write_epw(tmp_path / "day.epw", latitude, longitude), by_month=True, albedo=(0.0, 0.0), sky_model="isotropic")
+    assert light.hours == 24.0 and light.global_horizontal == pytest.approx(0.4)
+    assert "day.epw" in light.source and light.remarks == []
+    found = canyon.irradiation([STREET], light, height=HEIGHT)
+    svf = float(canyon.svf([STREET], height=HEIGHT)[0])
+    assert float(found.irradiation[0]) == pytest.approx(0.4 * svf, abs=1e-4)
+    assert found.month.values.tolist() == [3]
+    part = canyon.light(tmp_path / "day.epw", "03-20T12:00/13:00")
+    assert part.hours == 1.0 and part.global_horizontal == pytest.approx(0.1)
+    elsewhere = canyon.light(write_epw(tmp_path / "far.epw", -latitude, longitude))
+    assert any("km" in remark for remark in elsewhere.remarks)
+
+
+def test_light_of_a_clear_sky_is_that_of_the_program(canyon: farlod.City, tmp_path: Path) -> None:
+    place = f"{STREET[0]},{STREET[1]}"
+    run_program(
+        "farlod-svf", canyon.path, "--at", place, "--height", HEIGHT, "--quantity", "irradiation", "--period", "2026-05/06", "--by", "month",
+        "--step", 30, "--linke", 4, "-o", tmp_path / "o.csv", "--summary", tmp_path / "s.json",
+    )
+    expected = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
+    light = canyon.light(period="2026-05/06", step=30, linke_turbidity=4.0, by_month=True)
+    told = json.loads((tmp_path / "s.json").read_text())["light"]
+    assert light.hours == told["hours"] == 61 * 24
+    assert light.global_horizontal == pytest.approx(told["global_horizontal_kwh_m2"], rel=1e-9)
+    found = canyon.irradiation([STREET], light, height=HEIGHT)
+    assert float(found.irradiation[0]) == pytest.approx(float(expected["irradiation"]), rel=1e-5)
+    assert float(found.irradiation_by_month.sel(month=5)[0]) == pytest.approx(float(expected["irradiation_05"]), rel=1e-5)
+    assert float(found.irradiation_by_month.sum()) == pytest.approx(float(found.irradiation[0]), rel=1e-5)
+
+
+def test_light_over_a_raster(village: farlod.City) -> None:
+    light = village.light(period="2026-06-30T12:00/2026-07-01T12:00", step=60, by_month=True)
+    grid = village.svf_grid(5.0, light=light, quantities=["shade"])
+    months = grid.irradiation_by_month
+    assert months.dims == ("month", "y", "x") and months.month.values.tolist() == [6, 7]
+    assert "irradiation_06" not in grid and {"irradiation_direct", "shade"} <= set(grid.data_vars)
+    np.testing.assert_allclose(months.sum("month", skipna=False), grid.irradiation, rtol=1e-4)
+    blocks = village.svf_grid(5.0, light=light, quantities=["shade"], chunks=16).compute()
+    xarray.testing.assert_equal(blocks, grid)
+
+
+def test_light_on_surfaces(village: farlod.City) -> None:
+    light = village.light(period="2026-06-21", step=60)
+    roofs = village.surfaces("roofs", 4.0, light=light, irradiation_threshold=5.0, geometry=False)
+    np.testing.assert_allclose(roofs.irradiation_kwh, roofs.irradiation * roofs.area_m2, rtol=1e-5)
+    receivers = village.surfaces("roofs", 4.0, light=light, points=True)
+    above = receivers[receivers.irradiation >= 5.0].area_m2.sum()
+    assert 0.0 < above < roofs.area_m2.sum()
+    assert roofs.area_above_m2.sum() == pytest.approx(above)
+    assert "area_above_m2" not in village.surfaces("roofs", 4.0, light=light, geometry=False)
+    assert "irradiation_kwh" not in village.surfaces("roofs", 4.0, geometry=False)
 
 
 def test_looking_up(canyon: farlod.City) -> None:

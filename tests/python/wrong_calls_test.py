@@ -66,6 +66,7 @@ SHARED = [
     (dict(memory_limit=0), "memory_limit"),
     (dict(progress=3), "progress"),
 ]
+SUN = farlod.Light(180.0, 30.0, 800.0, 100.0)
 CALLS = {
     "svf": (
         [((points,), {}, text) for points, text in POINTS]
@@ -95,13 +96,21 @@ CALLS = {
         ((HERE, [NAN], [1.0], [1.0]), {}, "sun"),
     ],
     "irradiation": [
-        ((HERE, [0.0, 1.0, 2.0], [1.0, 2.0], 1.0, 1.0), {}, "one length"),
-        ((HERE, 0.0, 1.0, "bright", 1.0), {}, "direct_normal"),
-        ((HERE, 0.0, 1.0, -1.0, 1.0), {}, "direct irradiance"),
-        ((HERE, 0.0, NAN, 1.0, 1.0), {}, "elevation"),
-        ((HERE, 0.0, 1.0, 1.0, 1.0), dict(sky_model="blue"), '"isotropic"'),
-        ((HERE, 0.0, 1.0, 1.0, 1.0), dict(albedo=[0.1]), "albedo"),
-        ((HERE, 0.0, 1.0, 1.0, 1.0), dict(month=13), "month"),
+        ((HERE, 800.0), {}, "farlod.Light"),
+        ((HERE, farlod.Light(0.0, 1.0, -1.0, 1.0)), {}, "direct irradiance"),
+        ((HERE, farlod.Light(0.0, NAN, 1.0, 1.0)), {}, "elevation"),
+        ((HERE, farlod.Light(0.0, 1.0, 1.0, 1.0, albedo=(0.1, 1.5))), {}, "albedo"),
+        ((HERE, SUN), dict(quantities=["wind"]), "quantities"),
+    ],
+    "light": [
+        ((), {}, "period"),
+        ((3,), {}, "weather"),
+        ((), dict(period="someday"), "someday"),
+        ((), dict(period="06-21"), "06-21"),
+        ((), dict(period="2026-06-21", step=0), "step"),
+        ((), dict(period="2026-06-21", linke_turbidity=99.0), "urbidity"),
+        ((), dict(period="2026-06-21", by_month="yes"), "by_month"),
+        ((), dict(period="2026-06-21", sky_model="blue"), '"isotropic"'),
     ],
     "look_up": [((HERE,), {}, "shape"), (([1.0],), {}, "shape"), (([NAN, 0.0],), {}, "nowhere")] + [
         ((HERE[0],), keywords, text) for keywords, text in SHARED
@@ -129,6 +138,8 @@ CALLS = {
         ((2.0,), dict(like=xarray.DataArray(np.zeros((3, 3)), dims=("y", "x"))), "like and step"),
         ((), dict(like=3, bbox=(0, 0, 1, 1)), "like and bbox"),
         ((20.0,), dict(quantities=["wind"]), "quantities"),
+        ((20.0,), dict(quantities=["shade"]), "light"),
+        ((20.0,), dict(light=800.0), "farlod.Light"),
     ],
     "ground": [((0.0,), {}, "step"), ((5.0,), dict(threads="two"), "threads")],
     "surfaces": [
@@ -139,6 +150,8 @@ CALLS = {
         (("walls",), dict(points=True, geometry=False), "geometry"),
         (("walls",), dict(verify=1.5), "verify"),
         (("walls",), dict(max_error=7.0), "max_error"),
+        (("walls",), dict(irradiation_threshold=800.0), "irradiation"),
+        (("walls",), dict(light=SUN, irradiation_threshold=-1.0), "threshold"),
     ],
     "plot": [((xarray.Dataset(),), {}, "coordinates"), ((xarray.Dataset(),), dict(step=2.0), "grid and step"), ((), dict(step=-1.0), "step")],
     "check": [((), dict(threads=1.5), "threads")],
@@ -156,6 +169,22 @@ def test_message_says_what_is_wrong(village: farlod.City, function: str, argumen
     assert text in str(raised.value)
 
 
+@pytest.mark.parametrize(
+    ("arguments", "keywords", "text"),
+    [
+        (([0.0, 1.0, 2.0], [1.0, 2.0], 1.0, 1.0), {}, "one length"),
+        ((0.0, 1.0, "bright", 1.0), {}, "direct_normal"),
+        ((0.0, 1.0, 1.0, 1.0), dict(sky_model="blue"), '"isotropic"'),
+        ((0.0, 1.0, 1.0, 1.0), dict(albedo=[0.1]), "albedo"),
+        ((0.0, 1.0, 1.0, 1.0), dict(month=13), "month"),
+    ],
+)
+def test_light_says_what_is_wrong(arguments: Any, keywords: Any, text: str) -> None:
+    with pytest.raises(farlod.InvalidArgument) as raised:
+        farlod.Light(*arguments, **keywords)
+    assert text in str(raised.value)
+
+
 def test_unknown_keyword_is_a_type_error(village: farlod.City) -> None:
     with pytest.raises(TypeError, match="hieght"):
         village.svf(HERE, hieght=2.0)  # type: ignore[call-overload]
@@ -164,7 +193,7 @@ def test_unknown_keyword_is_a_type_error(village: farlod.City) -> None:
 @pytest.mark.parametrize("function", [name for name in CALLS if name != "check"] + ["check"])
 def test_closed_city(village: farlod.City, function: str) -> None:
     village.close()
-    good = {"sunlit": (HERE, [0.0], [1.0], [1.0]), "irradiation": (HERE, 0.0, 1.0, 1.0, 1.0), "look_up": (HERE[0],), "fisheye": (HERE[0],)}
+    good = {"sunlit": (HERE, [0.0], [1.0], [1.0]), "irradiation": (HERE, SUN), "light": (None, "2026"), "look_up": (HERE[0],), "fisheye": (HERE[0],)}
     arguments = good.get(function, (HERE,) if function in ("svf", "evaluate", "horizon", "sky_patches") else ())
     with pytest.raises(farlod.InvalidArgument, match="closed"):
         getattr(village, function)(*arguments)
@@ -319,6 +348,6 @@ def test_types_name_the_words_of_the_library():
     assert {name: get_args(words) for name, words in types.items()} == {name: runtime.words[name] for name in types}
     assert ("none", *get_args(_settings.SkyPatches)) == runtime.words["sky_patches"]
     # Others have a keyword or a method of their own
-    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "irradiation", "irradiance", "illuminance", "shade"}
+    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "irradiation", "illuminance"}
     assert others <= set(runtime.words["quantity"])
     assert get_args(_settings.Quantity) == tuple(word for word in runtime.words["quantity"] if word not in others)

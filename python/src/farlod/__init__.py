@@ -17,7 +17,9 @@ With xarray installed, ``import farlod`` also gives arrays the accessor ``.farlo
 
 from __future__ import annotations
 
-from farlod._city import City, Hemisphere, PackageCheck, PointAnswers, SvfInterval, open
+from farlod._answers import Hemisphere, PackageCheck, PointAnswers, SvfInterval
+from farlod._city import City, open
+from farlod._light import Light
 from farlod._modules import runtime as _runtime
 from farlod._packing import Heights, Problem, ProblemsWarning, Report, Trees, pack
 from farlod._settings import Options
@@ -45,6 +47,7 @@ __all__ = [
     "InputError",
     "InvalidArgument",
     "InvalidPoint",
+    "Light",
     "LimitReached",
     "Options",
     "OutputError",

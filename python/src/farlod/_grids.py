@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -107,6 +108,31 @@ def _coordinates(pixels: Any, crs: Any) -> dict[str, Any]:
     }
 
 
+def _with_months(dataset: xarray.Dataset, *, last: bool = False) -> xarray.Dataset:
+    """``irradiation_01`` … as one variable with the dimension ``month``, which comes first, or last."""
+    names = [str(name) for name in dataset.data_vars if re.fullmatch(r"irradiation_\d\d", str(name))]
+    if not names:
+        return dataset
+    import xarray
+
+    variable: Any = xarray.Variable  # it has no types
+    months = variable.concat([dataset[name].variable for name in names], "month")
+    months.attrs = {"long_name": "irradiation of a month", "units": dataset[names[0]].attrs["units"]}
+    coordinate = ("month", [int(name[-2:]) for name in names], {"long_name": "month of the year", "units": "1"})
+    together = months.transpose(..., "month") if last else months
+    return dataset.drop_vars(names).assign(irradiation_by_month=together).assign_coords(month=coordinate)
+
+
+def columns_of_points(table: npt.NDArray[np.float32], evaluation: Evaluation, index: Any) -> xarray.Dataset:
+    """``table`` has a column for each further quantity."""
+    import xarray
+
+    attributes = _attributes(evaluation)
+    names = evaluation.further().columns()
+    variables = {name: ("point", table[:, n], attributes[name]) for n, name in enumerate(names)}
+    return _with_months(xarray.Dataset(variables, {"point": _points(index, len(table))}), last=True)
+
+
 def _dataset(
     bands: Mapping[str, Any],
     pixels: Any,
@@ -118,8 +144,8 @@ def _dataset(
     import xarray
 
     variables = {name: (("y", "x"), band, dict(of_bands.get(name, {}))) for name, band in bands.items()}
-    dataset = xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes))
-    for name in bands:
+    dataset = _with_months(xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes)))
+    for name in dataset.data_vars:
         dataset[name].encoding.update(grid_mapping="spatial_ref", _FillValue=np.float32(np.nan))
     if like is None:
         return dataset

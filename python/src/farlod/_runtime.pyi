@@ -46,13 +46,15 @@ class Quantities:
     def set_sun(self, azimuth_deg: _Floats64, elevation_deg: _Floats64, hours: _Floats64) -> None: ...
     def set_light(
         self,
-        azimuth_deg: _Floats64,
-        elevation_deg: _Floats64,
         direct_normal_w_m2: _Floats64,
         diffuse_w_m2: _Floats64,
         hours: _Floats64,
         extraterrestrial_w_m2: _Floats64,
         month: _Floats64,
+        sun_count: _Floats64,
+        sun_azimuth_deg: _Floats64,
+        sun_elevation_deg: _Floats64,
+        sun_hours: _Floats64,
         sky_model: str,
         ground_albedo: float,
         facade_albedo: float,
@@ -118,6 +120,14 @@ class _Hemisphere(TypedDict):
     parts: npt.NDArray[np.uint8]
     horizon_tangent: _Floats32
 
+class _PeriodLight(TypedDict):
+    intervals: dict[str, _Floats64]
+    sun_count: _Floats64
+    suns: dict[str, _Floats64]
+    hours: float
+    source: str
+    remarks: list[str]
+
 class _Surfaces(TypedDict):
     means: dict[str, Any]
     points: dict[str, Any]
@@ -148,8 +158,28 @@ def look_up(
     caller: CallerSettings,
 ) -> _Hemisphere | None: ...
 def evaluate_surfaces(
-    package: Package, which: str, spacing_m: float, points: bool, settings: EvaluationSettings, caller: CallerSettings
+    package: Package,
+    which: str,
+    spacing_m: float,
+    irradiation_threshold_kwh_m2: float | None,
+    points: bool,
+    settings: EvaluationSettings,
+    caller: CallerSettings,
 ) -> _Surfaces: ...
+def light_of_period(
+    weather_file: str, period: str, step_minutes: int, linke_turbidity: float, longitude_deg: float, latitude_deg: float
+) -> _PeriodLight: ...
+def global_horizontal_kwh_m2(
+    direct_normal_w_m2: _Floats64,
+    diffuse_w_m2: _Floats64,
+    hours: _Floats64,
+    extraterrestrial_w_m2: _Floats64,
+    month: _Floats64,
+    sun_count: _Floats64,
+    sun_azimuth_deg: _Floats64,
+    sun_elevation_deg: _Floats64,
+    sun_hours: _Floats64,
+) -> float: ...
 def check_package(package: Package, caller: CallerSettings) -> dict[str, Any]: ...
 def ground_heights(package: Package, plan: RasterPlan, caller: CallerSettings) -> _Floats32: ...
 def building_outlines(

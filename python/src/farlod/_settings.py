@@ -9,8 +9,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypedDict, Union, get_args
 
-import numpy as np
-
 from farlod import _arguments
 from farlod._modules import runtime as _runtime
 from farlod.errors import InvalidArgument
@@ -26,6 +24,8 @@ Quantity = Literal[
     "directional",
     "hidden",
     "shadow_patches",
+    "irradiance",
+    "shade",
     "sky_component",
     "svf_total",
     "svfaveg",
@@ -113,39 +113,6 @@ def caller_settings(module: Any, threads: Any = 0, memory_limit: Any = None, pro
 
 
 @dataclass(frozen=True)
-class Light:
-    """The light of a period, interval by interval; a number stands for all of them."""
-
-    azimuth: Any
-    elevation: Any
-    direct_normal: Any
-    diffuse: Any
-    hours: Any
-    month: Any
-    extraterrestrial: Any
-    sky_model: SkyModel
-    albedo: Any
-
-    def add_to(self, further: Any) -> None:
-        """Asks ``Quantities`` for the irradiation of this light. Raises InvalidArgument."""
-        columns = {name: _arguments.floats(name, getattr(self, name)) for name in _LIGHT_COLUMNS}
-        month = _arguments.floats("month", 1.0 if self.month is None else self.month)
-        try:
-            together = np.broadcast_arrays(*columns.values(), month)
-        except ValueError:
-            raise InvalidArgument(f"{', '.join(columns)} and month are not of one length: give one of each for each interval") from None
-        albedo = _arguments.floats("albedo", self.albedo).ravel()
-        if albedo.size != 2:
-            raise InvalidArgument(f"albedo is {self.albedo!r}: give two numbers, those of the ground and of façades")
-        model = _arguments.word("sky_model", self.sky_model, get_args(SkyModel))
-        further.set_light(*(column.ravel() for column in together), model, *albedo, self.month is not None)
-        further.ask("irradiation")
-
-
-_LIGHT_COLUMNS = ("azimuth", "elevation", "direct_normal", "diffuse", "hours", "extraterrestrial")
-
-
-@dataclass(frozen=True)
 class Evaluation:
     """What is computed at a receiver, and how exactly. Unset options are the library's."""
 
@@ -159,7 +126,7 @@ class Evaluation:
     horizon_distances: bool = False
     sky_patches: str = "none"
     sun: tuple[Any, Any, Any] | None = None
-    light: Light | None = None
+    light: Any = None  #: a farlod.Light
     region: Any = None
     verify: int = 0
     options: Options = field(default_factory=lambda: Options())
@@ -184,8 +151,14 @@ class Evaluation:
         if self.sun is not None:
             further.set_sun(*(_arguments.floats("sun", values).ravel() for values in self.sun))
         if self.light is not None:
-            self.light.add_to(further)
+            self._ask_for_light(further)
         return further
+
+    def _ask_for_light(self, further: Any) -> None:
+        add_to = getattr(self.light, "_add_to", None)
+        if add_to is None:
+            raise InvalidArgument(f"light is a {type(self.light).__name__}: give a farlod.Light, as City.light() makes it")
+        add_to(further)
 
     def _set_canopy(self, further: Any) -> None:
         rule = self.options.get("canopy_rule", "umep")

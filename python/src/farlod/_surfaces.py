@@ -50,17 +50,28 @@ def _polygons(package: Any, table: Mapping[str, Any], crs: Any) -> geopandas.Geo
 
 
 def frame(
-    package: Any, which: str, spacing: float, points: bool, geometry: bool, evaluation: Evaluation, crs: Any
+    package: Any,
+    which: str,
+    spacing: float,
+    irradiation_threshold: float | None,
+    points: bool,
+    geometry: bool,
+    evaluation: Evaluation,
+    crs: Any,
 ) -> geopandas.GeoDataFrame:
     """What City.surfaces() returns, in the CRS of the city."""
     import geopandas
 
-    found = _runtime.evaluate_surfaces(package, which, spacing, points, evaluation.settings(), evaluation.caller())
+    found = _runtime.evaluate_surfaces(package, which, spacing, irradiation_threshold, points, evaluation.settings(), evaluation.caller())
     if points:
         result = _of_points(found["points"], evaluation, crs)
     else:
         means = found["means"]
         names = {name: name for name in means if name not in ("building", "surface", "kind", "further")}
+        if evaluation.light is None:
+            del names["irradiation_kwh"]
+        if irradiation_threshold is None:
+            del names["area_above_m2"]
         columns = _columns(means, names, evaluation.further().columns())
         shapes = _polygons(package, means, crs) if geometry else [None] * len(means["building"])
         result = geopandas.GeoDataFrame(columns, geometry=shapes, crs=crs)
