@@ -41,10 +41,12 @@ std::optional<std::size_t> column_of(const std::vector<std::string>& names, std:
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// The column of the values: that which the request names, else `usual`. Throws InputError, with the columns that are there.
+/// The column of the values: that which the request names, or the mean of it, else `usual`. Throws InputError, with the columns
+/// that are there.
 std::size_t column_of_values(const Attributes& table, const ResultRequest& request, std::string_view usual) {
   const std::string name = request.quantity.empty() ? std::string(usual) : request.quantity;
   if (const auto column = column_of(table.names(), name)) return *column;
+  if (const auto column = column_of(table.names(), name + "_mean")) return *column;
   std::string names;
   for (const std::string& other : table.names()) names += (names.empty() ? "" : ", ") + other;
   throw InputError(request.file.string() + " has no field " + name + (names.empty() ? "." : ": it has " + names + ".") +
@@ -229,6 +231,17 @@ ResultLayer layer_of_raster(const ResultRequest& request, const Package& package
 }
 #endif
 
+/// The least end of five round steps that is not below a value. From 0 to 1 go the colours of shares of the sky: it is not 1.
+float top_of_scale(float highest) {
+  constexpr double steps = 5.0, least = 1e-3;
+  const double needed = std::max(static_cast<double>(highest), least);
+  for (double power = std::pow(10.0, std::floor(std::log10(needed / steps)));; power *= 10.0)
+    for (const double digit : {1.0, 2.0, 2.5, 5.0}) {
+      const auto top = static_cast<float>(steps * digit * power);
+      if (top >= static_cast<float>(needed) && top != 1.0F) return top;
+    }
+}
+
 }  // namespace
 
 std::string_view name_of(ResultForm form) {
@@ -245,6 +258,14 @@ std::string_view name_of(ResultForm form) {
   return "problems";
 }
 
+std::string_view ResultLayer::unit() const {
+  // The first that fits
+  constexpr std::array<std::array<std::string_view, 2>, 5> units{
+      {{"irradiation_kwh", "kWh"}, {"irradiation", "kWh/m²"}, {"irradiance", "W/m²"}, {"sunlit_h", "h"}, {"horizon_", "°"}}};
+  const auto* const found = std::ranges::find_if(units, [this](const auto& u) { return quantity.starts_with(u[0]); });
+  return found == units.end() ? std::string_view() : (*found)[1];
+}
+
 std::array<float, 2> ResultLayer::range() const {
   float low = 0.0F, high = 1.0F;
   bool is_first = true;
@@ -254,6 +275,7 @@ std::array<float, 2> ResultLayer::range() const {
     high = is_first ? value : std::max(high, value);
     is_first = false;
   }
+  if (quantity.starts_with("irradia")) return {0.0F, top_of_scale(high)};
   return 0.0F <= low && high <= 1.0F ? std::array{0.0F, 1.0F} : std::array{low, high};
 }
 

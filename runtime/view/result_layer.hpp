@@ -43,7 +43,10 @@ struct ResultLayer {
 
   std::vector<float> values = {};  ///< of pixels, points or surfaces, NaN where there is none; empty for problems
 
-  /// From 0 to 1 where all values lie there, else the least and the greatest of them.
+  /// The unit of a quantity of farlod-svf that is no share, for people, by its name: "kWh/m²" of `irradiation_mean`; else empty.
+  [[nodiscard]] std::string_view unit() const;
+  /// From 0 to 1 where all values lie there, else the least and the greatest of them. That of light begins at 0, and ends at five
+  /// steps of 1, 2, 2.5 or 5 and a power of ten, but not at 1.
   [[nodiscard]] std::array<float, 2> range() const;
   /// The values of a raster, or the three coordinates and the value of each point, or the two numbers and the value of each
   /// surface, as little-endian floats, which hold whole numbers up to 16,777,216.
@@ -56,9 +59,9 @@ inline constexpr std::size_t most_points_of_layer = 1'000'000;
 /// Reads a result file. `request` is its name, perhaps with a colon and the name of a band or a field behind it; without one, it
 /// is `svf`, and of a raster without that the first band. Rasters are all that GDAL knows; points are those of `farlod-svf
 /// --points` or of any vector file; surfaces are the table FILE.surfaces.csv of `farlod-svf --surfaces`, or the layer `surfaces`
-/// of its GeoPackage, of which `svf_mean` is taken without a name; a report of `farlod-pack --report FILE.geojson` is known by
-/// its fields. What is in another CRS is brought into that of the package. Points without a height stand as high as receivers of
-/// a map. Throws InputError, PackageDamaged.
+/// of its GeoPackage, of which `svf_mean` is taken without a name, and `irradiation_mean` by the name `irradiation`; a report of
+/// `farlod-pack --report FILE.geojson` is known by its fields. What is in another CRS is brought into that of the package. Points
+/// without a height stand as high as receivers of a map. Throws InputError, PackageDamaged.
 [[nodiscard]] ResultLayer read_result_layer(const std::string& request, const Package& package, const ViewFrame& frame);
 
 }  // namespace farlod

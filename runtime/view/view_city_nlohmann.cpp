@@ -114,7 +114,8 @@ Json results_json(const std::vector<ResultLayer>& results) {
   for (const ResultLayer& layer : results) {
     Json json = {{"name", layer.name},         {"form", name_of(layer.form)},
                  {"quantity", layer.quantity}, {"url", "results/" + std::to_string(list.size())},
-                 {"count", layer.count},       {"range", layer.range()}};
+                 {"count", layer.count},       {"range", layer.range()},
+                 {"unit", layer.unit()}};
     if (layer.form == ResultForm::raster) {
       json["width"] = layer.width;
       json["height"] = layer.height;

@@ -10,14 +10,13 @@ import { part, showFacts } from "./page_parts.ts";
 import type { PickedFacet } from "./picking.ts";
 import { computed, type NumberPair, type ResultChoice, ResultControls } from "./result_controls.ts";
 import { dotsOf } from "./result_points.ts";
-import { isValue, PointsResult, RasterResult, type ResultInfo, SurfacesResult, titleOf } from "./results.ts";
+import { isValue, PointsResult, RasterResult, type ResultInfo, SurfacesResult, titleOf, valueText } from "./results.ts";
 import type { ShownValues } from "./shown_values.ts";
 import type { SourcePair } from "./value_pairs.ts";
 import type { ViewInfo } from "./view_info.ts";
 
 /** A dot is told of when it is this near to the place that was clicked at, on the screen. */
 const reach_px = 10;
-const svfText = (value: number): string => (isValue(value) ? value.toFixed(4) : "no data");
 
 /** The results beside the package: loads those that are shown, draws them, compares them, and tells their values at a place. */
 export class ResultView {
@@ -118,7 +117,8 @@ export class ResultView {
   private showLegend({ ground, buildings, comparison }: ResultChoice): void {
     const pairs = [ground, buildings].filter((pair) => pair.shown !== computed || pair.compared !== null), range = this.values.colouredRange;
     const compared = pairs.filter((pair) => pair.compared !== null), byDivider = comparison === "divider";
-    const titles = (byDivider || compared.length === 0 ? pairs : compared).map((pair) => this.titleOfPair(pair, byDivider ? " | " : " less "));
+    const titled = byDivider || compared.length === 0 ? pairs : compared;
+    const titles = titled.map((pair) => this.titleOfPair(pair, byDivider ? " | " : " less ") + this.unitOf(pair));
     if (titles.length === 0) this.legend.showValues("Sky view factor", range);
     else if (compared.length === 0 || byDivider) this.legend.showValues(titles.join(", "), range);
     else this.legend.showDifferences(titles.join(", "), this.values.greatestDifference);
@@ -130,6 +130,12 @@ export class ResultView {
 
   private titleOfPair({ shown, compared }: NumberPair, between: string): string {
     return this.nameOf(shown) + (compared === null ? "" : between + this.nameOf(compared));
+  }
+
+  /** ", kWh/m²"; nothing where there is none. */
+  private unitOf({ shown }: NumberPair): string {
+    const unit = this.view.results[shown]?.unit;
+    return unit ? `, ${unit}` : "";
   }
 
   private nameOf(n: number): string {
@@ -160,13 +166,15 @@ export class ResultView {
 function rowsOf<Result extends { info: ResultInfo }>({ shown, compared }: SourcePair<Result>, valueIn: (result: Result) => number): [string, string][] {
   const results = [shown, compared].filter((source): source is Result => source !== null && source !== "computed");
   const values = results.map(valueIn), [a, b] = values;
-  const rows = results.map((result, n): [string, string] => [titleOf(result.info), svfText(values[n] ?? NaN)]);
-  if (a !== undefined && b !== undefined) rows.push(["Difference", isValue(a) && isValue(b) ? (a - b).toFixed(4) : "no data"]);
+  const rows = results.map((result, n): [string, string] => [titleOf(result.info), valueText(result.info, values[n] ?? NaN)]);
+  const [first] = results;
+  if (a !== undefined && b !== undefined && first)
+    rows.push(["Difference", isValue(a) && isValue(b) ? valueText(first.info, a - b) : "no data"]);
   return rows;
 }
 
 async function rowOfPoint(result: PointsResult, n: number): Promise<[string, string]> {
   const label = await result.labelOf(n), { info } = result;
-  return info.form === "problems" ? ["Problem", label] : [`${titleOf(info)}, ${label}`, svfText(result.values[n] ?? NaN)];
+  return info.form === "problems" ? ["Problem", label] : [`${titleOf(info)}, ${label}`, valueText(info, result.values[n] ?? NaN)];
 }
 

@@ -13,8 +13,10 @@ export interface ResultInfo {
   url: string;
   /** Pixels, surfaces or points in the file; what is drawn may be thinned. */
   count: number;
-  /** 0 and 1 where all values lie between. */
+  /** 0 and 1 where all values lie between, and are shares. */
   range: [number, number];
+  /** Such as kWh/m²; empty of shares, and where it is not known. */
+  unit: string;
   width?: number;
   height?: number;
   /** East of the corner of pixel (column, row) = [0] + column·[1] + row·[2], north = [3] + column·[4] + row·[5]. */
@@ -27,6 +29,13 @@ export const isValue = (value: number): boolean => value > 0.5 * noValue;
 
 /** What the page calls it. */
 export const titleOf = (info: ResultInfo): string => (info.quantity ? `${info.name}: ${info.quantity}` : info.name);
+
+const digitsWithUnit = 4;
+/** For people. */
+export function valueText(info: ResultInfo, value: number): string {
+  if (!isValue(value)) return "no data";
+  return info.unit ? `${Number(value.toPrecision(digitsWithUnit))} ${info.unit}` : value.toFixed(4);
+}
 
 async function loadFloats(info: ResultInfo): Promise<Float32Array> {
   const response = await fetchOfServer(info.url), floats = new Float32Array(await response.arrayBuffer());

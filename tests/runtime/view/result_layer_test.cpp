@@ -122,6 +122,22 @@ TEST_F(Results, AFieldIsNamedBehindAColon) {
   EXPECT_THAT(refusal_of(grid() + ":svf_total"), AllOf(HasSubstr("no band svf_total"), HasSubstr("band 1")));
 }
 
+TEST_F(Results, IrradiationHasItsUnitAndARoundScale) {
+  const auto layer_of = [&](const std::string& values) {
+    return read(file("year.surfaces.csv", "building,surface,svf_mean,irradiation_mean,irradiation_kwh\na,1,.5," + values + "\n") +
+                ":irradiation");
+  };
+  const ResultLayer layer = layer_of("1204.9,2409.8\nb,1,.5,143.2,300");
+  EXPECT_EQ(layer.quantity, "irradiation_mean");
+  EXPECT_EQ(layer.unit(), "kWh/m²");
+  EXPECT_THAT(layer.range(), ElementsAre(0.0F, 1250.0F));
+  EXPECT_THAT(layer_of("0.03,1").range(), ElementsAre(0.0F, 0.05F));
+  EXPECT_THAT(layer_of("5,1").range(), ElementsAre(0.0F, 5.0F));
+  EXPECT_THAT(layer_of("0.9,1").range(), ElementsAre(0.0F, 1.25F)) << "0 to 1 are the colours of shares of the sky";
+  EXPECT_EQ(read(folder.file("year.surfaces.csv").string() + ":irradiation_kwh").unit(), "kWh");
+  EXPECT_EQ(read(folder.file("year.surfaces.csv").string()).unit(), "");
+}
+
 TEST_F(Results, ATableHasValuesOfSurfaces) {
   const std::string path =
       file("walls.surfaces.csv", "building,surface,kind,svf_mean,svf_max\na,1,roof,.75,1\n\"b, c\",7,wall,.25,.5\na,2,wall,,\n");
