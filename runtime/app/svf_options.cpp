@@ -294,28 +294,33 @@ void require_accuracy(const EvaluationSettings& settings) {
   }
 }
 
+bool any_but_irradiation(Quantities further) {
+  further.irradiation = false;
+  return further.any();
+}
+
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   RequestedQuantities requested = resolved(raw.quantities, o.format);
   if (requested.further.any_weighted() && o.evaluation.weight == SkyWeight::solid_angle)
     throw CLI::ValidationError("--quantity",
                                "with --sky solid only " + words_of_unweighted() + " can be computed: leave --sky out");
   const bool is_sky = o.source == ReceiverSource::at && o.format != nullptr && o.format->is_picture;
-  if (is_sky && requested.further.any())
-    throw CLI::ValidationError("--quantity",
-                               "a picture of the sky shows svf and, with --sun, the sun's path: leave the others out");
+  if (is_sky && any_but_irradiation(requested.further))
+    throw CLI::ValidationError(
+        "--quantity", "a picture of the sky shows svf, irradiation, and with --sun the sun's path: leave the others out");
   const auto has_room = [&](const OutputFormat& f) { return fits(f, o.source) && f.holds_bounds; };
   if (requested.any() && !is_sky && o.format != nullptr && !o.format->holds_bounds)
     throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
                                                  " has room for one quantity only: " + advice(has_room));
   requested.further.svf_total_bounds = requested.further.svf_total && o.evaluation.bounds;
   o.light = resolved_light(raw.light, requested.further);
+  if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))
+    throw CLI::ValidationError("--irradiation-threshold", "it goes with --surfaces and --quantity irradiation");
   o.evaluation.further = std::move(requested.further);
   o.sunshine = requested.sunshine;
 }
 
 void resolve(const RawOptions& raw, SvfOptions& o) {
-  if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))
-    throw CLI::ValidationError("--irradiation-threshold", "it goes with --surfaces and --quantity irradiation");
   o.package = raw.package;
   resolve_place(raw, o);
   resolve_part(raw, o);

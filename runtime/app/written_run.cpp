@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -124,6 +125,40 @@ std::optional<SunOfSky> sun_of_sky(const Package& package, const SvfOptions& opt
   return sun;
 }
 
+/// Whole intervals of some hours, so that a picture of a year has some thousand suns.
+constexpr double hours_between_suns = 1.0;
+
+/// The suns of a period: one for each interval, or of the shorter ones one an hour, where the period has more than three days.
+std::vector<LitSun> suns_of(const Light& light) {
+  constexpr double hours_with_each_sun = 72.0;
+  double all_hours = 0.0, since_last = hours_between_suns;
+  for (const LightInterval& interval : light.intervals) all_hours += interval.hours;
+  std::vector<LitSun> suns;
+  for (const LightInterval& interval : light.intervals) {
+    // Half a second: hours are sums of steps
+    const bool is_next = all_hours <= hours_with_each_sun || since_last > hours_between_suns - 0.5 / 3600.0;
+    if (is_next && !interval.sun.empty()) {
+      const SunPosition& sun = interval.sun[interval.sun.size() / 2];
+      suns.push_back({{sun.azimuth.degrees(), 90.0 - sun.elevation.degrees()}, interval.direct_normal_w_m2});
+    }
+    since_last = (is_next ? 0.0 : since_last) + interval.hours;
+  }
+  return suns;
+}
+
+/// Where the sun stands in the period, and what falls on the receiver.
+std::optional<LightOfSky> light_of_sky(const SvfOptions& options, const Hemisphere& hemisphere) {
+  const Quantities& further = options.evaluation.further;
+  if (!further.light) return std::nullopt;
+  LightOfSky light{suns_of(*further.light), {"Irradiation in kWh/m²:"}};
+  const std::vector<std::string> columns = columns_of(further);
+  const auto first = static_cast<std::size_t>(std::ranges::find(columns, "irradiation") - columns.begin());
+  constexpr std::array<const char*, 4> words{"in all", "direct", "diffuse", "reflected"};
+  for (std::size_t n = 0; n < words.size(); ++n)
+    light.legend.push_back(fmt::format("{:#.4g} {}", hemisphere.further.at(first + n), words[n]));
+  return light;
+}
+
 /// The extent of a raster: a mask needs no pixels around it.
 std::optional<Box2d> extent_of(const SvfOptions& options) {
   if (options.bbox_projected || options.evaluation.region == nullptr) return options.bbox_projected;
@@ -234,7 +269,9 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
                            fmt::format("{} ({}), {:.2f} m above sea level", coordinates, crs, hemisphere->height_m)};
   WrittenRun written{hemisphere->summary, {options.output}};
   const std::optional<SunOfSky> sun = sun_of_sky(package, options, *hemisphere);
-  written.write_s = seconds_of([&] { write_drawing(draw_sky(*hemisphere, options.projection, caption, sun), options.output); });
+  const std::optional<LightOfSky> light = light_of_sky(options, *hemisphere);
+  written.write_s =
+      seconds_of([&] { write_drawing(draw_sky(*hemisphere, options.projection, caption, sun, light), options.output); });
   return written;
 }
 

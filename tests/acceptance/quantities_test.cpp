@@ -155,6 +155,18 @@ TEST_F(PackedTown, BuildingsHaveTheIrradiationOfTheirReceivers) {
   EXPECT_GT(below_m2, 100.0);
 }
 
+TEST_F(PackedTown, APictureOfTheSkyShowsTheSunOfAPeriod) {
+  const std::string run =
+      "farlod-svf a.farlod --quantity irradiation --period 2026-06-21 --at " + text_of(p_projected({-60.0, 0.0}));
+  folder.must(run + " -o sky.svg");
+  folder.must(run + " -o sky.csv");
+  const std::string svg = folder.text_of("sky.svg");
+  EXPECT_GT(folder.colours_of("sky.svg").size(), 30U) << "one for each strength of the sun";
+  folder.must("farlod-svf a.farlod -o without.svg --at " + text_of(p_projected({-60.0, 0.0})));
+  EXPECT_LT(folder.colours_of("without.svg").size(), 15U);
+  EXPECT_LT(folder.text_of("without.svg").size(), svg.size());
+}
+
 TEST_F(PackedTown, IrradiationOfAClearSkyNeedsNoFile) {
   folder.must("farlod-svf a.farlod -o o.tif --grid 8 --period 2026-06-21 --quantity irradiation --linke 4");
   EXPECT_THAT(band_names(folder.path("o.tif")),

@@ -10,6 +10,7 @@
 
 #include "base/expects.hpp"
 #include "results/picture/picture.hpp"
+#include "results/picture/sky_light.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -31,15 +32,6 @@ struct Minute {
   PagePoint place;
   bool is_up = false, is_hidden = false;
 };
-
-bool is_hidden(const Hemisphere& hemisphere, const HemisphereDirection& d) {
-  const auto part_of = [](double share, std::size_t count) {
-    return std::min(static_cast<std::size_t>(share * static_cast<double>(count)), count - 1);
-  };
-  const std::size_t azimuth = part_of(std::fmod(d.azimuth_deg, 360.0) / 360.0, hemisphere.azimuths),
-                    elevation = part_of(1.0 - d.zenith_angle_deg / 90.0, hemisphere.elevations);
-  return hemisphere.part(azimuth, elevation) != SkyPart::sky;
-}
 
 std::vector<Minute> minutes_of(const SunCourse& course, const Hemisphere& hemisphere, SkyProjection projection) {
   std::vector<Minute> minutes;
@@ -144,8 +136,8 @@ void add_sun_courses(Drawing& drawing, const Hemisphere& hemisphere, SkyProjecti
   for (std::size_t n = 0; n < courses.size(); ++n) labels.add(sun.courses[n], courses[n], course_colours[n].seen);
 }
 
-/// Which line is which day, and the lines of text of the sun.
-void add_sun_legend(Drawing& drawing, PagePoint upper_left, const SunOfSky& sun) {
+/// Which line is which day, and the lines of text of the sun. Returns where it ends.
+double add_sun_legend(Drawing& drawing, PagePoint upper_left, const SunOfSky& sun) {
   constexpr double step = 24.0, sample = 30.0, indent = 40.0, middle_of_line = 7.0, base_line = 12.0;
   const double x = upper_left.x;
   double y = upper_left.y;
@@ -168,6 +160,7 @@ void add_sun_legend(Drawing& drawing, PagePoint upper_left, const SunOfSky& sun)
   add_text("hidden by geometry", indent);
   y += 0.5 * step;
   for (const std::string& words : sun.legend) add_text(words, 0.0);
+  return y;
 }
 
 constexpr double pi = std::numbers::pi;
@@ -270,7 +263,8 @@ std::vector<std::pair<SkyPart, const char*>> colours_of(const Hemisphere& hemisp
   return colours;
 }
 
-void add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjection projection, const std::optional<SunOfSky>& sun) {
+/// Returns where it ends.
+PagePoint add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjection projection) {
   const double x = static_cast<double>(disk_left + disk_edge) + 56.0;
   double y = static_cast<double>(disk_top) + 10.0;
   const auto add_text = [&](const std::string& words, double indent, Colour colour) {
@@ -288,10 +282,19 @@ void add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjection pr
   for (const std::string& words : {std::string("Seen from below:"), std::string("north up, east on the left"),
                                    std::string("True north"), "Projection: " + name_of(projection)})
     add_text(words, 0.0, muted);
-  if (sun) add_sun_legend(drawing, {x, y + 12.0}, *sun);
+  return {x, y + 12.0};
 }
 
 }  // namespace
+
+bool is_hidden(const Hemisphere& hemisphere, const HemisphereDirection& d) {
+  const auto part_of = [](double share, std::size_t count) {
+    return std::min(static_cast<std::size_t>(share * static_cast<double>(count)), count - 1);
+  };
+  const std::size_t azimuth = part_of(std::fmod(d.azimuth_deg, 360.0) / 360.0, hemisphere.azimuths),
+                    elevation = part_of(1.0 - d.zenith_angle_deg / 90.0, hemisphere.elevations);
+  return hemisphere.part(azimuth, elevation) != SkyPart::sky;
+}
 
 DiskPoint disk_point_of(const HemisphereDirection& direction, SkyProjection projection) {
   const double radius = radius_of(direction.zenith_angle_deg * rad_per_deg, projection),
@@ -336,7 +339,7 @@ Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, st
 }
 
 Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption,
-                 const std::optional<SunOfSky>& sun) {
+                 const std::optional<SunOfSky>& sun, const std::optional<LightOfSky>& light) {
   const std::string name = caption.quantity == "svf" ? "Sky view factor (svf) " : "Solid angle share of the sky (svf_solid) ";
   Drawing drawing{sky_picture_size, name + svf_decimal(hemisphere.svf).substr(0, 6)};
   drawing.shapes.emplace_back(Text{{24.0, 46.0}, drawing.title, title_height, Alignment::left, ink});
@@ -344,9 +347,12 @@ Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const S
   drawing.shapes.emplace_back(Image{{disk_left, disk_top}, draw_sky_disk(hemisphere, projection, disk_edge)});
   add_rings(drawing, projection);
   drawing.shapes.emplace_back(horizon_line(hemisphere, projection));
+  if (light) add_suns(drawing, hemisphere, projection, *light);
   if (sun) add_sun_courses(drawing, hemisphere, projection, *sun);
   add_directions(drawing);
-  add_legend(drawing, hemisphere, projection, sun);
+  PagePoint legend = add_legend(drawing, hemisphere, projection);
+  if (sun) legend.y = add_sun_legend(drawing, legend, *sun) + 12.0;
+  if (light) add_light_legend(drawing, legend, *light);
   return drawing;
 }
 

@@ -57,8 +57,24 @@ struct SunOfSky {
   std::vector<std::string> legend;  ///< lines of text: which hours these are, for how long the sun shines
 };
 
-/// The disk with the horizon, the four directions, the view factor and a legend; and the sun's way, if it is given.
+/// The sun above the horizon at a time of a period.
+struct LitSun {
+  HemisphereDirection direction;
+  double direct_w_m2 = 0.0;  ///< on a plane that faces it
+};
+
+/// What a picture of the sky shows of the light of a period.
+struct LightOfSky {
+  std::vector<LitSun> suns;
+  std::vector<std::string> legend;  ///< lines of text: what falls on the receiver
+};
+
+/// Whether something hides a direction.
+[[nodiscard]] bool is_hidden(const Hemisphere& hemisphere, const HemisphereDirection& direction);
+
+/// The disk with the horizon, the four directions, the view factor and a legend; the sun's way, and where it stands in a period,
+/// if they are given.
 [[nodiscard]] Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption,
-                               const std::optional<SunOfSky>& sun = {});
+                               const std::optional<SunOfSky>& sun = {}, const std::optional<LightOfSky>& light = {});
 
 }  // namespace farlod

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "results/picture/far_panorama.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/raster_preview.hpp"
+#include "results/picture/sky_light.hpp"
 #include "sun/sun_positions.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 
@@ -135,6 +137,51 @@ TEST(SunInThePicture, IsPaleWhereGeometryHidesTheSun) {
   const Picture picture = with_sun(longest_day());
   // In the morning behind the near wall in the east, in the evening behind what is far
   for (const int hour : {6, 8, 18}) EXPECT_EQ(picture.at(pixel_of_sun(hour)), (Colour{250, 200, 200})) << hour;
+}
+
+/// The discs of a drawing that are no wider than those of suns, by their middles.
+std::vector<std::pair<PagePoint, Colour>> small_discs(const Drawing& drawing) {
+  std::vector<std::pair<PagePoint, Colour>> discs;
+  for (const auto& shape : drawing.shapes)
+    if (const auto* polygon = std::get_if<Polygon>(&shape); polygon != nullptr && polygon->corners.size() > 4) {
+      PagePoint sum{0.0, 0.0};
+      for (const PagePoint p : polygon->corners) sum = {sum.x + p.x, sum.y + p.y};
+      const auto count = static_cast<double>(polygon->corners.size());
+      discs.emplace_back(PagePoint{sum.x / count, sum.y / count}, polygon->colour);
+    }
+  return discs;
+}
+
+TEST(LightInThePicture, HasTheSunsInTheColoursOfTheirLightWhereTheyAreSeen) {
+  constexpr SkyProjection projection = SkyProjection::equal_area;
+  // In the east a wall rises to 60°, elsewhere the horizon is at 30°
+  const std::vector<LitSun> suns{{{180.0, 45.0}, 900.0}, {{180.0, 75.0}, 800.0}, {{90.0, 45.0}, 900.0}, {{90.0, 15.0}, 0.0}};
+  const Drawing drawing = draw_sky(basin_with_a_wall_in_the_east(), projection, {"svf", ""}, {}, LightOfSky{suns, {"12 in all"}});
+  const auto discs = small_discs(drawing);
+  ASSERT_GE(discs.size(), suns.size());
+  const std::vector<Colour> expected{colour_of_sun(900.0), discs[1].second, discs[1].second, colour_of_sun(0.0)};
+  for (std::size_t n = 0; n < suns.size(); ++n) {
+    const PagePoint place = sky_page_point(suns[n].direction, projection);
+    EXPECT_NEAR(discs[n].first.x, place.x, 1e-6) << n;
+    EXPECT_NEAR(discs[n].first.y, place.y, 1e-6) << n;
+    EXPECT_EQ(discs[n].second, expected[n]) << n;
+  }
+  for (const double direct_w_m2 : {0.0, 250.0, 800.0, 1000.0}) EXPECT_NE(discs[1].second, colour_of_sun(direct_w_m2));
+  const auto is_said = [](const auto& shape) {
+    const auto* text = std::get_if<Text>(&shape);
+    return text != nullptr && text->words == "12 in all";
+  };
+  EXPECT_TRUE(std::ranges::any_of(drawing.shapes, is_said));
+}
+
+TEST(LightInThePicture, ColoursGetDarkerWithTheSun) {
+  const auto lightness = [](double direct_w_m2) {
+    const Colour c = colour_of_sun(direct_w_m2);
+    return 0.3 * c.red + 0.6 * c.green + 0.1 * c.blue;
+  };
+  for (double direct_w_m2 = 0.0; direct_w_m2 < 1000.0; direct_w_m2 += 50.0)
+    EXPECT_GT(lightness(direct_w_m2), lightness(direct_w_m2 + 50.0)) << direct_w_m2;
+  EXPECT_EQ(colour_of_sun(1000.0), colour_of_sun(1300.0));
 }
 
 TEST(SunInThePicture, IsNotDrawnBelowTheHorizon) {
