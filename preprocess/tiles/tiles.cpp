@@ -18,6 +18,7 @@
 #include "tiles/building_bases.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/contacts.hpp"
+#include "tiles/rim.hpp"
 #include "tiles/tile_filler.hpp"
 #include "tiles/undersides.hpp"
 
@@ -125,7 +126,7 @@ class TileCutter {
   void place_ground_piece(const CellPiece& piece) {
     if (!grid_.cells.contains(piece.cell)) return;  // a terrain may reach beyond the grid
     place(piece, ground_surface);
-    place_rim(piece);
+    for (const CellEdge& side : rim_of(piece, grid_)) place(side);
   }
 
   void place_ground_edges() {
@@ -148,7 +149,7 @@ class TileCutter {
 
   void place_on_ground(const std::vector<CellEdge>& pieces) {
     for (const CellEdge& piece : pieces)
-      if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
+      if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece, grid_)) place(piece);
   }
 
   [[nodiscard]] std::vector<CellEdge> cut_edges_of(const GroundFace& face) const {
@@ -171,23 +172,6 @@ class TileCutter {
   void place(const CellPiece& piece, std::uint32_t surface) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
     filler_.add_polygon(piece.cell, piece.polygon, surface);
-  }
-
-  /// The cut along the outer border of the grid is an edge of the remaining ground.
-  void place_rim(const CellPiece& piece) {
-    for (std::size_t k = 0; k < piece.polygon.size(); ++k) {
-      const CellEdge side{piece.cell, {piece.polygon[k], piece.polygon[(k + 1) % piece.polygon.size()], {}}};
-      if (lies_on_rim(side)) place(side);
-    }
-  }
-
-  [[nodiscard]] bool lies_on_rim(const CellEdge& piece) const {
-    const auto edge_m = static_cast<float>(grid_.cell_edge_m);
-    const Point3f &a = piece.edge.a, &b = piece.edge.b;
-    return (piece.cell.i == grid_.cells.i_begin && a.x == 0.0F && b.x == 0.0F) ||
-           (piece.cell.j == grid_.cells.j_begin && a.y == 0.0F && b.y == 0.0F) ||
-           (piece.cell.i == grid_.cells.i_end - 1 && a.x == edge_m && b.x == edge_m) ||
-           (piece.cell.j == grid_.cells.j_end - 1 && a.y == edge_m && b.y == edge_m);
   }
 
   void place(const CellEdge& piece) {
@@ -255,6 +239,7 @@ class TileCutter {
       }
     }
   }
+
   std::uint32_t add_closing_surface(std::uint32_t of_building) {
     const Surface beside = tiles_.surfaces[of_building];
     tiles_.surfaces.push_back({beside.building, closing_number, closing_part, SurfaceKind::foundation, {0.0, 0.0, -1.0}, 0.0});

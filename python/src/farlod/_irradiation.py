@@ -83,7 +83,9 @@ class IrradiationOfCity(OpenCity):
         quantities: Iterable[Quantity] = (),
         **options: Unpack[Options],
     ) -> xarray.Dataset:
-        """What falls on points in a period, in kWh/m²; the crowns of trees let all light through.
+        """What falls on points in a period, in kWh/m².
+
+        Crowns of trees take light, by ``canopy_rule``, ``leaf_off`` and ``transmissivity``.
 
         Parameters
         ----------
