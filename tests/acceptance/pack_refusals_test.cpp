@@ -292,7 +292,7 @@ TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
   edit_manifest("\"version\": 10", "\"version\": 12");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 12", "reads versions 8 to 11", "newer release"});
+                 {"manifest.json has format version 12", "reads versions 8 to 12", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
@@ -300,7 +300,7 @@ TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
   for (const std::string version : {"5", "6", "7"}) {
     folder.write("a.farlod/manifest.json", text);
     edit_manifest("\"version\": 10", "\"version\": " + version);
-    const std::vector<std::string> said{"manifest.json has format version " + version, "reads versions 8 to 11",
+    const std::vector<std::string> said{"manifest.json has format version " + version, "reads versions 8 to 12",
                                         "Pack the city again"};
     expect_refusal(evaluate(), exit_unusable_input, said);
     expect_refusal(folder.run("farlod-info a.farlod --check"), exit_unusable_input, said);
