@@ -290,9 +290,9 @@ TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 10", "\"version\": 12");
+  edit_manifest("\"version\": 10", "\"version\": 13");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 12", "reads versions 8 to 12", "newer release"});
+                 {"manifest.json has format version 13", "reads versions 8 to 12", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
