@@ -44,7 +44,7 @@ struct Contact {
   CrossSection section;
   Corners corners;
   [[nodiscard]] Point3d nearest_to(double at_m) const;
-  /// Of the triangle from a stretch: it is convex, so that no place between is farther away than both ends.
+  /// The largest distance of the triangle from a stretch: it is convex, so no place between is farther away than both ends.
   [[nodiscard]] double distance_m(const Stretch& s) const {
     const Point3d from{s.from_m, 0.0, 0.0}, to{s.to_m, 0.0, 0.0};
     return std::max(norm(nearest_to(s.from_m) - from), norm(nearest_to(s.to_m) - to));
