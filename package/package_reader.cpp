@@ -148,7 +148,7 @@ struct PackageReader::Impl {
   }
 
   TileView tile(Cell cell) {
-    const TileView stored = tiles(index_of(cell)).tile(cell);
+    TileView stored = tiles(index_of(cell)).tile(cell);
     if (memory || !manifest.pixels || !manifest.pixels->squares) return stored;
     std::call_once(relief_once, [&] { relief.emplace(*pixel_heights(), *manifest.pixels, manifest.grid); });
     return relief->whole(stored, cell);
