@@ -47,7 +47,7 @@ std::vector<LeaningCorner> leaning_corners(std::span<const EdgeSides> edges) {
 void add_facet(const std::array<Point3d, 3>& t, std::vector<LeaningCorner>& corners) {
   const auto has = [&](const Point3d& p) { return std::find(t.begin(), t.end(), p) != t.end(); };
   for (LeaningCorner& corner : corners) {
-    const auto& [top, foot] = corner.segment;
+    const Point3d &top = corner.segment.a, &foot = corner.segment.b;
     if (!has(top) || !has(foot)) continue;
     const Point3d& third = *std::find_if(t.begin(), t.end(), [&](const Point3d& p) { return !(p == top) && !(p == foot); });
     const Point3d along = foot - top, to_third = third - top;
@@ -71,7 +71,7 @@ std::vector<ClosingTriangle> closing_below(std::vector<LeaningCorner> corners, c
   Places feet(&comes_first);
   std::vector<ClosingTriangle> closing;
   for (const LeaningCorner& corner : corners) {
-    const auto& [top, foot] = corner.segment;
+    const Point3d &top = corner.segment.a, &foot = corner.segment.b;
     if (!ends_of_grounded.contains(top) && !feet.contains(top)) continue;
     feet.insert(foot);
     if (corner.stands_out_m() <= least_sliver_m) continue;

@@ -16,7 +16,6 @@ namespace farlod::tiles {
 namespace {
 
 using test::area_m2;
-using test::as_set;
 using testing::IsEmpty;
 
 /// A lower border 10 m long, 5 m up, along the x axis.
