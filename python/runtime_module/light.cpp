@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,11 +26,13 @@ namespace farlod {
 namespace {
 
 using LightColumn = std::vector<double>;
+constexpr double unknown_lux = std::numeric_limits<double>::quiet_NaN();
 
 /// Intervals of light as Python has them: an array for each of their members, and, one interval after the other, an array for
 /// each member of their positions of the sun, of which an interval has `sun_count`.
 struct LightColumns {
-  const LightColumn &direct_normal_w_m2, &diffuse_w_m2, &hours, &extraterrestrial_w_m2, &month, &sun_count;
+  const LightColumn &direct_normal_w_m2, &diffuse_w_m2, &direct_normal_lux, &diffuse_lux;  ///< lx are NaN where nobody knows them
+  const LightColumn &hours, &extraterrestrial_w_m2, &month, &sun_count;
   const LightColumn &sun_azimuth_deg, &sun_elevation_deg, &sun_hours;
 };
 
@@ -39,14 +43,16 @@ void require_one_length(const LightColumns& of) {
       throw InvalidArgument("a number of positions of the sun is no whole number");
     suns += count;
   }
-  for (const LightColumn* column :
-       {&of.direct_normal_w_m2, &of.diffuse_w_m2, &of.extraterrestrial_w_m2, &of.month, &of.sun_count})
+  for (const LightColumn* column : {&of.direct_normal_w_m2, &of.diffuse_w_m2, &of.direct_normal_lux, &of.diffuse_lux,
+                                    &of.extraterrestrial_w_m2, &of.month, &of.sun_count})
     if (column->size() != of.hours.size())
       throw InvalidArgument("the columns of light are not of one length: give one number of each for each interval");
   for (const LightColumn* column : {&of.sun_azimuth_deg, &of.sun_elevation_deg, &of.sun_hours})
     if (static_cast<double>(column->size()) != suns)
       throw InvalidArgument("the positions of the sun are not as many as the intervals say");
 }
+
+std::optional<double> if_known(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 std::vector<LightInterval> light_intervals(const LightColumns& of) {
   require_one_length(of);
@@ -61,6 +67,8 @@ std::vector<LightInterval> light_intervals(const LightColumns& of) {
     intervals[k].hours = of.hours[k];
     intervals[k].direct_normal_w_m2 = of.direct_normal_w_m2[k];
     intervals[k].diffuse_w_m2 = of.diffuse_w_m2[k];
+    intervals[k].direct_normal_lux = if_known(of.direct_normal_lux[k]);
+    intervals[k].diffuse_lux = if_known(of.diffuse_lux[k]);
     intervals[k].extraterrestrial_w_m2 = of.extraterrestrial_w_m2[k];
     intervals[k].month = static_cast<unsigned>(of.month[k]);
   }
@@ -68,20 +76,23 @@ std::vector<LightInterval> light_intervals(const LightColumns& of) {
 }
 
 void set_light(Quantities& quantities, const LightColumn& direct_normal_w_m2, const LightColumn& diffuse_w_m2,
-               const LightColumn& hours, const LightColumn& extraterrestrial_w_m2, const LightColumn& month,
-               const LightColumn& sun_count, const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg,
-               const LightColumn& sun_hours, const std::string& sky_model, double ground_albedo, double facade_albedo,
-               bool by_month) {
-  quantities.light = Light{light_intervals({direct_normal_w_m2, diffuse_w_m2, hours, extraterrestrial_w_m2, month, sun_count,
-                                            sun_azimuth_deg, sun_elevation_deg, sun_hours}),
-                           meaning_of("sky_model", sky_model, sky_model_words), ground_albedo, facade_albedo, by_month};
+               const LightColumn& direct_normal_lux, const LightColumn& diffuse_lux, const LightColumn& hours,
+               const LightColumn& extraterrestrial_w_m2, const LightColumn& month, const LightColumn& sun_count,
+               const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg, const LightColumn& sun_hours,
+               const std::string& sky_model, double ground_albedo, double facade_albedo, bool by_month) {
+  quantities.light =
+      Light{light_intervals({direct_normal_w_m2, diffuse_w_m2, direct_normal_lux, diffuse_lux, hours, extraterrestrial_w_m2,
+                             month, sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}),
+            meaning_of("sky_model", sky_model, sky_model_words), ground_albedo, facade_albedo, by_month};
 }
 
-double global_horizontal(const LightColumn& direct_normal_w_m2, const LightColumn& diffuse_w_m2, const LightColumn& hours,
+double global_horizontal(const LightColumn& direct_normal_w_m2, const LightColumn& diffuse_w_m2,
+                         const LightColumn& direct_normal_lux, const LightColumn& diffuse_lux, const LightColumn& hours,
                          const LightColumn& extraterrestrial_w_m2, const LightColumn& month, const LightColumn& sun_count,
                          const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg, const LightColumn& sun_hours) {
-  return global_horizontal_kwh_m2(light_intervals({direct_normal_w_m2, diffuse_w_m2, hours, extraterrestrial_w_m2, month,
-                                                   sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}));
+  return global_horizontal_kwh_m2(
+      light_intervals({direct_normal_w_m2, diffuse_w_m2, direct_normal_lux, diffuse_lux, hours, extraterrestrial_w_m2, month,
+                       sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}));
 }
 
 /// A value of each of some rows.
@@ -95,11 +106,14 @@ py::array_t<double> numbers_of(std::span<const Row> rows, const Value& value) {
 
 py::dict columns_of_intervals(std::span<const LightInterval> intervals) {
   using Row = LightInterval;
-  return py::dict("direct_normal"_a = numbers_of(intervals, [](const Row& i) { return i.direct_normal_w_m2; }),
-                  "diffuse"_a = numbers_of(intervals, [](const Row& i) { return i.diffuse_w_m2; }),
-                  "hours"_a = numbers_of(intervals, [](const Row& i) { return i.hours; }),
-                  "extraterrestrial"_a = numbers_of(intervals, [](const Row& i) { return i.extraterrestrial_w_m2; }),
-                  "month"_a = numbers_of(intervals, [](const Row& i) { return i.month; }));
+  return py::dict(
+      "direct_normal"_a = numbers_of(intervals, [](const Row& i) { return i.direct_normal_w_m2; }),
+      "diffuse"_a = numbers_of(intervals, [](const Row& i) { return i.diffuse_w_m2; }),
+      "direct_normal_lux"_a = numbers_of(intervals, [](const Row& i) { return i.direct_normal_lux.value_or(unknown_lux); }),
+      "diffuse_lux"_a = numbers_of(intervals, [](const Row& i) { return i.diffuse_lux.value_or(unknown_lux); }),
+      "hours"_a = numbers_of(intervals, [](const Row& i) { return i.hours; }),
+      "extraterrestrial"_a = numbers_of(intervals, [](const Row& i) { return i.extraterrestrial_w_m2; }),
+      "month"_a = numbers_of(intervals, [](const Row& i) { return i.month; }));
 }
 
 py::dict columns_of_suns(std::span<const SunPosition> suns) {
@@ -129,18 +143,19 @@ py::dict light_in_python(const std::string& weather_file, const std::string& per
 }  // namespace
 
 void add_light_of(py::class_<Quantities>& quantities) {
-  quantities.def("set_light", &set_light, py::arg("direct_normal_w_m2"), py::arg("diffuse_w_m2"), py::arg("hours"),
-                 py::arg("extraterrestrial_w_m2"), py::arg("month"), py::arg("sun_count"), py::arg("sun_azimuth_deg"),
-                 py::arg("sun_elevation_deg"), py::arg("sun_hours"), py::arg("sky_model"), py::arg("ground_albedo"),
-                 py::arg("facade_albedo"), py::arg("by_month"));
+  quantities.def("set_light", &set_light, py::arg("direct_normal_w_m2"), py::arg("diffuse_w_m2"), py::arg("direct_normal_lux"),
+                 py::arg("diffuse_lux"), py::arg("hours"), py::arg("extraterrestrial_w_m2"), py::arg("month"),
+                 py::arg("sun_count"), py::arg("sun_azimuth_deg"), py::arg("sun_elevation_deg"), py::arg("sun_hours"),
+                 py::arg("sky_model"), py::arg("ground_albedo"), py::arg("facade_albedo"), py::arg("by_month"));
 }
 
 void add_weather(py::module_& module) {
   module.def("light_of_period", &light_in_python, py::arg("weather_file"), py::arg("period"), py::arg("step_minutes"),
              py::arg("linke_turbidity"), py::arg("longitude_deg"), py::arg("latitude_deg"));
   module.def("global_horizontal_kwh_m2", &global_horizontal, py::arg("direct_normal_w_m2"), py::arg("diffuse_w_m2"),
-             py::arg("hours"), py::arg("extraterrestrial_w_m2"), py::arg("month"), py::arg("sun_count"),
-             py::arg("sun_azimuth_deg"), py::arg("sun_elevation_deg"), py::arg("sun_hours"));
+             py::arg("direct_normal_lux"), py::arg("diffuse_lux"), py::arg("hours"), py::arg("extraterrestrial_w_m2"),
+             py::arg("month"), py::arg("sun_count"), py::arg("sun_azimuth_deg"), py::arg("sun_elevation_deg"),
+             py::arg("sun_hours"));
 }
 
 }  // namespace farlod

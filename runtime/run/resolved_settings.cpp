@@ -44,9 +44,13 @@ void check(const Light& light) {
     require_between("a diffuse irradiance, in W/m²", interval.diffuse_w_m2, 0.0, 2000.0);
     require_between("an extraterrestrial irradiance, in W/m²", interval.extraterrestrial_w_m2, 100.0, 2000.0);
     require_count_between("a month of an interval of light", interval.month, 1, 12);
+    if (interval.direct_normal_lux) require_between("a direct illuminance, in lx", *interval.direct_normal_lux, 0.0, 300000.0);
+    if (interval.diffuse_lux) require_between("a diffuse illuminance, in lx", *interval.diffuse_lux, 0.0, 300000.0);
     for (const SunPosition& sun : interval.sun) check(sun);
   }
 }
+
+bool knows_illuminance(const LightInterval& interval) { return interval.direct_normal_lux && interval.diffuse_lux; }
 
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
@@ -58,6 +62,8 @@ void check(const Quantities& q, SkyWeight weight) {
   if (q.any_of_light() && !q.light)
     throw InvalidArgument(
         "further.irradiation, irradiance, illuminance and shade are those of a period: give its light (further.light)");
+  if (q.illuminance && std::ranges::none_of(q.light->intervals, knows_illuminance))
+    throw InvalidArgument("further.illuminance needs lx: no interval of further.light has them (direct_normal_lux, diffuse_lux)");
   check(q.canopy);
   if (weight == SkyWeight::cosine) return;
   for (const QuantityWord& asked : words_of(q))

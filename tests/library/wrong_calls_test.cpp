@@ -90,6 +90,10 @@ void add_settings(Cases& cases) {
     a.settings.engine = Engine::near_only;
     a.settings.max_error = 0.01;
   });
+  cases.add(all, "light to the eye of light that tells none", [](Arguments& a) {
+    a.settings.further.illuminance = true;
+    a.settings.further.light = Light{{LightInterval{}}};
+  });
 }
 
 void add_limits(Cases& cases) {

@@ -86,6 +86,16 @@ def test_light_in_a_street(canyon: farlod.City) -> None:
     assert float(found.shade[0]) == 0.0  # along the street
 
 
+def test_illuminance_in_a_street(canyon: farlod.City) -> None:
+    # Of two hours one knows its lx
+    light = farlod.Light(
+        [0.0, 0.0], [50.0, 50.0], 0.0, [100.0, 300.0], direct_normal_lux=0.0, diffuse_lux=[np.nan, 30000.0], sky_model="isotropic", albedo=(0, 0)
+    )
+    found = canyon.irradiation([STREET], light, height=HEIGHT, quantities=["illuminance"])
+    svf = float(canyon.svf([STREET], height=HEIGHT)[0])
+    assert float(found.illuminance[0]) == pytest.approx(30000.0 * svf, rel=1e-3)
+
+
 EPW_ROW = "2026,3,20,{hour},0,?9?9?9,10,5,70,101000,0,0,300,{diffuse},0,{diffuse},0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0"
 
 

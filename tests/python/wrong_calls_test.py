@@ -140,6 +140,7 @@ CALLS = {
         ((20.0,), dict(quantities=["wind"]), "quantities"),
         ((20.0,), dict(quantities=["shade"]), "light"),
         ((20.0,), dict(light=800.0), "farlod.Light"),
+        ((20.0,), dict(light=farlod.Light(180.0, 30.0, 800.0, 100.0), quantities=["illuminance"]), "lx"),
     ],
     "ground": [((0.0,), {}, "step"), ((5.0,), dict(threads="two"), "threads")],
     "surfaces": [
@@ -348,6 +349,6 @@ def test_types_name_the_words_of_the_library():
     assert {name: get_args(words) for name, words in types.items()} == {name: runtime.words[name] for name in types}
     assert ("none", *get_args(_settings.SkyPatches)) == runtime.words["sky_patches"]
     # Others have a keyword or a method of their own
-    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "irradiation", "illuminance"}
+    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "irradiation"}
     assert others <= set(runtime.words["quantity"])
     assert get_args(_settings.Quantity) == tuple(word for word in runtime.words["quantity"] if word not in others)

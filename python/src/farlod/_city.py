@@ -92,8 +92,8 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
         height, above, metric, max_error, bounds, **options : as for :meth:`svf`
         quantities : as for :meth:`evaluate`
         light : Light, optional
-            Of a period: adds the variables of :meth:`irradiation`, that of months on (month, y, x). With it, ``"irradiance"``
-            and ``"shade"`` are quantities, too.
+            Of a period: adds the variables of :meth:`irradiation`, that of months on (month, y, x). With it, ``"irradiance"``,
+            ``"illuminance"`` and ``"shade"`` are quantities, too.
         verify : as for :meth:`evaluate`
             Not with chunks.
 

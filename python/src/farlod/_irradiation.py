@@ -94,7 +94,8 @@ class IrradiationOfCity(OpenCity):
             :meth:`light` makes it of weather.
         height, above, max_error, **options : as for :meth:`svf`
         quantities : as for :meth:`evaluate`
-            And ``"irradiance"``, the mean in W/m², and ``"shade"``, the share of the hours with a sun in which none shines.
+            And ``"irradiance"``, the mean in W/m², ``"illuminance"``, the mean in lx of weather that has it, and ``"shade"``, the
+            share of the hours with a sun in which none shines.
 
         Returns
         -------

@@ -17,7 +17,7 @@ from farlod.errors import InvalidArgument
 
 _Columns = dict[str, npt.NDArray[np.float64]]
 
-_OF_INTERVALS = ("direct_normal", "diffuse", "hours", "extraterrestrial", "month")
+_OF_INTERVALS = ("direct_normal", "diffuse", "direct_normal_lux", "diffuse_lux", "hours", "extraterrestrial", "month")
 
 
 class Light:
@@ -31,6 +31,8 @@ class Light:
         Means of the intervals in W/m², on a plane that faces the sun and from the sky on a level one (DNI and DHI).
     hours, extraterrestrial : float or array_like of float, (m,)
         The length of the intervals, and W/m² outside of the atmosphere.
+    direct_normal_lux, diffuse_lux : array_like of float, (m,), optional
+        The same two as light to the eye, NaN where it is not known: ``"illuminance"`` needs some.
     month : array_like of int, (m,), optional
         1 to 12; irradiation then has a value for each month, too.
     sky_model : {"perez", "isotropic"}
@@ -71,6 +73,8 @@ class Light:
         hours: Any = 1.0,
         month: Any = None,
         extraterrestrial: Any = 1361.0,
+        direct_normal_lux: Any = np.nan,
+        diffuse_lux: Any = np.nan,
         sky_model: SkyModel = "perez",
         albedo: tuple[float, float] = (0.2, 0.2),
     ) -> None:
@@ -79,6 +83,8 @@ class Light:
             "elevation": elevation,
             "direct_normal": direct_normal,
             "diffuse": diffuse,
+            "direct_normal_lux": direct_normal_lux,
+            "diffuse_lux": diffuse_lux,
             "hours": hours,
             "extraterrestrial": extraterrestrial,
             "month": 1.0 if month is None else month,

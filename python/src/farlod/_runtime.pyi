@@ -48,6 +48,8 @@ class Quantities:
         self,
         direct_normal_w_m2: _Floats64,
         diffuse_w_m2: _Floats64,
+        direct_normal_lux: _Floats64,
+        diffuse_lux: _Floats64,
         hours: _Floats64,
         extraterrestrial_w_m2: _Floats64,
         month: _Floats64,
@@ -172,6 +174,8 @@ def light_of_period(
 def global_horizontal_kwh_m2(
     direct_normal_w_m2: _Floats64,
     diffuse_w_m2: _Floats64,
+    direct_normal_lux: _Floats64,
+    diffuse_lux: _Floats64,
     hours: _Floats64,
     extraterrestrial_w_m2: _Floats64,
     month: _Floats64,

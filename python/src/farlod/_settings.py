@@ -25,6 +25,7 @@ Quantity = Literal[
     "hidden",
     "shadow_patches",
     "irradiance",
+    "illuminance",
     "shade",
     "sky_component",
     "svf_total",
