@@ -59,6 +59,19 @@ CPLStringList options_of_result(const RasterFrame& raster) {
   return options;
 }
 
+/// Averages of two by two pixels, and so on until all fits into a block. The driver COG would make them in files of its own,
+/// which take longer than a small map: it compresses each block with tables of megabytes.
+void make_overviews(GDALDataset& dataset) {
+  constexpr auto block_edge = static_cast<int>(geotiff_block_edge);
+  std::vector<int> shrinks;
+  for (int edge = std::max(dataset.GetRasterXSize(), dataset.GetRasterYSize()); edge > block_edge; edge /= 2)
+    shrinks.push_back(shrinks.empty() ? 2 : 2 * shrinks.back());
+  if (shrinks.empty()) return;
+  const CPLErr refused =
+      dataset.BuildOverviews("AVERAGE", static_cast<int>(shrinks.size()), shrinks.data(), 0, nullptr, nullptr, nullptr, nullptr);
+  if (refused != CE_None && CPLGetLastErrorType() < CE_Failure) CPLError(CE_Failure, CPLE_FileIO, "overviews were refused");
+}
+
 GDALDriver& driver_called(const char* name, const AtomicFile& file) {
   GDALRegister_GTiff();  // all drivers would take longer than a small map
   GDALRegister_COG();
@@ -141,6 +154,8 @@ class GeotiffWriter final : public RasterWriter {
     throw_if_any(errors);
     {
       const SmallCache cache;
+      make_overviews(*dataset_);
+      throw_if_any(errors);
       const GDALDatasetUniquePtr result(
           driver_called("COG", file_)
               .CreateCopy(file_.temporary().c_str(), dataset_.get(), TRUE, options_of_result(frame_).List(), nullptr, nullptr));

@@ -29,7 +29,7 @@ inline constexpr std::uint64_t geotiff_cache_bytes = 16 << 20;
 /// What commit() holds: GDAL's cache of blocks, its buffers for overviews, and blocks that are being compressed.
 [[nodiscard]] inline std::uint64_t geotiff_bytes(const RasterFrame& frame) {
   // Measured on rasters of 3 to 26 million pixels, for which it is much the same
-  constexpr std::uint64_t overview_bytes = 36 << 20;
+  constexpr std::uint64_t overview_bytes = 12 << 20;
   // A block as it came, and its compressed bytes, which may be as many; GDAL has one more in turn than it has threads
   const std::uint64_t bytes_of_block = 2 * geotiff_block_edge * geotiff_block_edge * sizeof(float) * frame.bands.size();
   return geotiff_cache_bytes + overview_bytes + (frame.threads == 1 ? 1 : frame.threads + 1) * bytes_of_block;
