@@ -22,8 +22,8 @@ namespace farlod {
 /// map: whatever the engine, their rays are traced against the whole city. Those in cells whose far map was not made
 /// (PackSettings::area) are traced so, too, by the engines automatic and rays.
 enum class Engine {
-  automatic,  ///< horizons, and rays where too much sky may be seen below something that overhangs
-  horizon,    ///< horizons alone; where they are not enough, or a far map is missing, the run ends with PackageUnusable
+  automatic,  ///< horizons
+  horizon,    ///< the same; where a far map is missing, the run ends with PackageUnusable
   rays,       ///< rays, as in the paper (Listing 1), compared with horizons; only those in gaps are traced
   exact,      ///< rays against all tiles: the reference
   /// The far city left out, as by tools that cut a city into tiles: to measure what the far map is worth. Knows neither bounds
@@ -162,7 +162,7 @@ struct EvaluationSummary {
   std::size_t without_far_map = 0;
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<BoundsWidth> bounds;
-  std::uint64_t by_rays = 0;        ///< receivers that needed rays
+  std::uint64_t by_rays = 0;        ///< receivers that rays answered, or for which bounds needed the whole city
   std::uint64_t retraced_rays = 0;  ///< rays and parts of the sky (wedges) that the whole city decided (max_error)
   std::optional<ErrorSummary> errors;
   /// Where these are computed: Quantities::svf_total, its bounds, and the errors of EvaluationSettings::verify.

@@ -297,7 +297,7 @@ void print_errors(const char* of_what, const ErrorSummary& e) {
 void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& asked) {
   if (asked.max_error)
     fmt::print(
-        "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} parts of the sky decided by the whole "
+        "Error of {:g} at the most: {} azimuths, {} rays where there are no horizons, {} parts of the sky decided by the whole "
         "city\n",
         *asked.max_error, run.accuracy.azimuths, run.accuracy.rays, run.retraced_rays);
   if (run.bounds)
@@ -336,10 +336,8 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
         "{} receivers lie in cells without a far map: they were traced against the whole city. farlod-pack --area adds far "
         "maps.\n",
         run.without_far_map);
-  if (asked.engine == Engine::automatic && run.by_rays > 0)
-    fmt::print(
-        "{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
-        run.by_rays, run.accuracy.rays, asked.max_error ? ", or their bounds were wider than allowed" : "");
+  if (asked.engine == Engine::automatic && asked.max_error && run.by_rays > 0)
+    fmt::print("{} of the receivers needed the whole city: their bounds were wider than allowed.\n", run.by_rays);
   print_accuracy(run, asked);
   for (const std::string& note : written.notes) fmt::print("{}\n", note);
   for (const auto& file : written.files) fmt::print("{}\n", file.string());

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/further_answers.hpp"
+#include "evaluate/error_budget.hpp"
 
 #include <algorithm>
 #include <array>
@@ -191,15 +192,14 @@ FarHorizon emptied(FarHorizon far) {
 
 }  // namespace
 
-/// The sky above the near geometry alone. Rays in gaps meet the neighborhood alone, too.
+/// The sky above the near geometry alone.
 class FurtherAnswers::NearSky {
  public:
-  NearSky(const PackageReader& package, const CellReceivers& cell, const FarHorizon& far, const AzimuthSampling& azimuths,
-          const GapSettings& gaps)
+  NearSky(const PackageReader& package, const CellReceivers& cell, const FarHorizon& far, const AzimuthSampling& azimuths)
       : far_(emptied(far)),
         silhouettes_(cell_silhouettes(package, cell.cell, far_, bounding_box(cell.receivers))),
         overhangs_(package, cell.cell),
-        engine_(azimuths, SkyWeight::cosine, far_, silhouettes_, overhangs_, gaps) {}
+        engine_(azimuths, SkyWeight::cosine, far_, silhouettes_, overhangs_, gap_tolerance(azimuths.size())) {}
 
   void evaluate(std::span<const ReceiverPacket> packets) {
     answers_.resize(packets.size());
@@ -231,8 +231,8 @@ void FurtherAnswers::trace(std::span<const ReceiverPacket> packets, const RaySce
   for (std::size_t n = 0; n < packets.size(); ++n) trace_profile(quantities_.azimuths(), scene, packets[n], profiles_[n], stop);
 }
 
-void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps) {
-  near_sky_ = std::make_unique<NearSky>(package, cell_, far, quantities_.azimuths(), gaps);
+void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizon& far) {
+  near_sky_ = std::make_unique<NearSky>(package, cell_, far, quantities_.azimuths());
 }
 
 void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels,

@@ -35,7 +35,7 @@ class FurtherAnswers {
 
   /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
   /// receiver of the cell.
-  void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
+  void draw_near_sky(const PackageReader& package, const FarHorizon& far);
   /// What crowns do to the sky is found for each group. The values of canopies are stored for what is drawn, and otherwise their
   /// places are left out.
   void draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);

@@ -87,11 +87,6 @@ class MethodWithHorizons : public SkyMethod {
   const Evaluation& evaluation_;
 
  private:
-  [[nodiscard]] GapSettings gap_settings() const {
-    const std::size_t azimuths = evaluation_.further.azimuths().size();
-    const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (evaluation_.settings.rays + azimuths / 2) / azimuths);
-    return {static_cast<float>(azimuth_error(azimuths)), rays_per_azimuth, evaluation_.stop};
-  }
   [[nodiscard]] CanopyCertainty certainty_of_canopies() const {
     const Quantities& wanted = evaluation_.settings.further;
     CanopyCertainty certainty;
@@ -105,7 +100,7 @@ class MethodWithHorizons : public SkyMethod {
   void begin_further(FurtherAnswers& further, HorizonEngine& engine, const FarHorizon& far, const CanopyCity* canopy) const {
     const FurtherQuantities& wanted = evaluation_.further;
     if (!wanted.empty()) further.listen_to(engine);
-    if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far, gap_settings());
+    if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far);
     if (wanted.canopy_columns().count > 0 || (wanted.needs_dimmed_sky() && evaluation_.package.has_crowns()))
       further.draw_canopies(evaluation_.package, certainty_of_canopies(), canopy, evaluation_.stop);
   }
@@ -116,7 +111,7 @@ void MethodWithHorizons::draw(CellGeometry& geometry, PixelHorizon* pixels, cons
                               const SkyAnswers& answers, const OnPacket& on_packet) const {
   const Evaluation& e = evaluation_;
   HorizonEngine engine(e.further.azimuths(), e.settings.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
-                       gap_settings());
+                       gap_tolerance(e.further.azimuths().size()));
   if (pixels != nullptr) engine.see(*pixels);
   // Where crowns are counted above the sky, half of the error is left to them
   const double share = e.settings.further.svf_total ? 0.5 : 1.0;
@@ -140,18 +135,15 @@ void MethodWithHorizons::draw(CellGeometry& geometry, PixelHorizon* pixels, cons
 
 class HorizonMethod final : public MethodWithHorizons {
  public:
-  HorizonMethod(const Evaluation& evaluation, bool rays_are_allowed)
-      : MethodWithHorizons(evaluation), rays_are_allowed_(rays_are_allowed) {}
+  using MethodWithHorizons::MethodWithHorizons;
 
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
     const auto start = EvaluationCounter::Clock::now();
     require_far_map(cell.cell);
     CellGeometry geometry(evaluation_, cell);
     const auto scene_ready = EvaluationCounter::Clock::now();
-    draw(geometry, cell, answers, [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
-      if (packet.by_gap_rays != 0) require_rays_allowed(cell.cell);
-      store(packet, numbers, cell, answers);
-    });
+    draw(geometry, cell, answers,
+         [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) { store(packet, numbers, cell, answers); });
     evaluation_.counter->add_times(start, scene_ready);
   }
 
@@ -162,15 +154,6 @@ class HorizonMethod final : public MethodWithHorizons {
                           " has none, since far maps were made for a part of the city: add those that are missing (farlod-pack "
                           "--area), or use the engine auto.");
   }
-  void require_rays_allowed(Cell cell) const {
-    if (rays_are_allowed_) return;
-    throw PackageUnusable(
-        "The engine horizon cannot tell how much sky is seen below bridges, balconies and projecting floors, and there is too "
-        "much of it in sight of cell " +
-        text_of(cell) + ": use the engine auto.");
-  }
-
-  bool rays_are_allowed_;
 };
 
 class PixelMethod final : public MethodWithHorizons {
@@ -271,8 +254,8 @@ void RayMethod::count_packet(RayEngine& engine, std::span<const Receiver> receiv
 
 }  // namespace
 
-std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed) {
-  return std::make_unique<HorizonMethod>(evaluation, rays_are_allowed);
+std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation) {
+  return std::make_unique<HorizonMethod>(evaluation);
 }
 
 std::unique_ptr<const SkyMethod> pixel_method(const Evaluation& evaluation, std::unique_ptr<const SkyMethod> others) {

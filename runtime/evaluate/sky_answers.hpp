@@ -31,7 +31,7 @@ struct SkySettings {
 
 /// What took more than a horizon.
 struct RayCounts {
-  std::uint64_t by_rays = 0;        ///< receivers that needed rays
+  std::uint64_t by_rays = 0;        ///< receivers that rays answered, or that the whole city decided
   std::uint64_t retraced_rays = 0;  ///< rays and wedges that the whole city decided because of an allowed error
 };
 

@@ -28,18 +28,16 @@ EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
   using enum EvaluationMethod;
   if (far_map == FarMapOfCell::outside_of_grid || engine == Engine::exact) return whole_city;
   if (engine == Engine::near_only) return near_scene_alone;
-  if (far_map == FarMapOfCell::missing) return engine == Engine::horizon ? horizons_alone : whole_city;
+  if (far_map == FarMapOfCell::missing) return engine == Engine::horizon ? horizons : whole_city;
   if (far_map == FarMapOfCell::needless) return engine == Engine::rays ? whole_city : pixels_and_whole_city;
   if (far_map == FarMapOfCell::box) return near_scene_and_box;
-  if (engine == Engine::rays) return rays_against_horizons;
-  return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
+  return engine == Engine::rays ? rays_against_horizons : horizons;
 }
 
 double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map) {
   const EvaluationMethod method = method_of(settings.engine, far_map);
-  const bool has_horizons = method == EvaluationMethod::horizons_alone || method == EvaluationMethod::horizons_and_rays ||
-                            method == EvaluationMethod::pixels_and_whole_city;
-  const bool has_rays = method != EvaluationMethod::horizons_alone;
+  const bool has_horizons = method == EvaluationMethod::horizons || method == EvaluationMethod::pixels_and_whole_city;
+  const bool has_rays = method != EvaluationMethod::horizons;
   // Bounds keep an allowed error, whatever lies between the samples; but crowns are seen at the samples alone
   if (settings.allowed_error && !settings.further.svf_total) return 0.0;
   return std::max(has_rays ? sampling_error(settings.rays) : 0.0, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
@@ -125,8 +123,7 @@ SkyEvaluator::SkyEvaluator(const SkyEvaluator& other, const SkySettings& setting
 SkyEvaluator::SkyEvaluator(std::unique_ptr<const Evaluation> evaluation) : evaluation_(std::move(evaluation)) {
   using enum EvaluationMethod;
   const auto method = [this](EvaluationMethod m) -> auto& { return methods_[static_cast<std::size_t>(m)]; };
-  method(horizons_and_rays) = pixel_method(*evaluation_, horizon_method(*evaluation_, true));
-  method(horizons_alone) = pixel_method(*evaluation_, horizon_method(*evaluation_, false));
+  method(horizons) = pixel_method(*evaluation_, horizon_method(*evaluation_));
   method(rays_against_horizons) = ray_method(*evaluation_);
   method(near_scene_and_box) = near_scene_method(*evaluation_, true);
   method(near_scene_alone) = near_scene_method(*evaluation_, false);

@@ -33,21 +33,21 @@ enum class FarMapOfCell {
 
 /// How the receivers of a cell are answered. A direction is free when
 enum class EvaluationMethod {
-  horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
-  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where rays are needed
-  rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
+  horizons,               ///< it lies above the horizon, or in a gap below an overhang that no facet hides
+  rays_against_horizons,  ///< the same, but facets in gaps are met by rays; asked for each of --rays directions instead of each
+                          ///< azimuth
   near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
   near_scene_alone,       ///< its ray meets no near tile
   whole_city,             ///< its ray meets no tile of the package
   pixels_and_whole_city   ///< it lies above the horizon of pixels; elsewhere, and for what these do not tell, as whole_city
 };
-inline constexpr std::size_t evaluation_method_count = 7;
+inline constexpr std::size_t evaluation_method_count = 6;
 
 /// The only place that decides which method answers a cell:
 ///
 ///   engine      far map `horizon`       far map `box`        missing            needless                outside of the grid
-///   automatic   horizons_and_rays       near_scene_and_box   whole_city         pixels_and_whole_city   whole_city
-///   horizon     horizons_alone          near_scene_and_box   horizons_alone     pixels_and_whole_city   whole_city
+///   automatic   horizons                near_scene_and_box   whole_city         pixels_and_whole_city   whole_city
+///   horizon     horizons                near_scene_and_box   horizons           pixels_and_whole_city   whole_city
 ///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city              whole_city
 ///   exact       whole_city              whole_city           whole_city         whole_city              whole_city
 ///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   near_scene_alone        whole_city
@@ -79,8 +79,7 @@ class SkyEvaluator {
   /// wanted, the value for the same azimuths or rays, with jumps of the horizon at the same places, and the true far city lies
   /// between them, up to the rounding of floats
   /// (docs/concepts.md, "Bounds of a sky view factor"); bounds need far maps of the kind `horizon` or the method `whole_city`.
-  /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang, or a cell
-  /// whose far map is missing.
+  /// Throws PackageUnusable where `horizons` meets a cell whose far map is missing.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 

@@ -93,8 +93,8 @@ class SkyMethod {
 };
 
 // The evaluation must outlive the methods. Which one answers a cell says method_of (evaluate/sky_evaluator.hpp)
-/// Horizons, and rays in the gaps below overhangs where they are allowed; otherwise receivers that need them are refused.
-[[nodiscard]] std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed);
+/// Horizons, and facets in the gaps below overhangs.
+[[nodiscard]] std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation);
 /// Horizons of receivers above the pixels of natural relief, where these tell all that is asked for; `others` answers the rest.
 [[nodiscard]] std::unique_ptr<const SkyMethod> pixel_method(const Evaluation& evaluation,
                                                             std::unique_ptr<const SkyMethod> others);

@@ -25,6 +25,7 @@ struct OverhangEdges {
 struct CellOverhangs {
   OverhangEdges near, far;
   [[nodiscard]] bool empty() const { return near.empty() && far.empty(); }
+  [[nodiscard]] bool has_undersides() const { return !near.undersides.empty() || !far.undersides.empty(); }
 };
 
 struct CellSilhouettes : CellOverhangs {

@@ -13,9 +13,8 @@ namespace {
 
 using Lanes = PacketHorizon::Lanes;
 
-/// The smallest gaps of a receiver that needs rays are not traced, as long as they hold no more of the tolerance than this. They
-/// are filled more often than large ones: a quarter of them is sky on average (docs/decisions/0014).
-constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
+/// The part of the sky of small gaps that is seen on average.
+constexpr float sky_in_small_gaps = 0.3F;
 
 Lanes sum(std::span<const PacketHorizon::Row> rows) {
   Lanes sums{};
@@ -27,18 +26,19 @@ Lanes sum(std::span<const PacketHorizon::Row> rows) {
 }  // namespace
 
 HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far,
-                             const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const GapSettings& gaps,
+                             const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, float gap_tolerance,
                              JumpPlaces jumps)
     : azimuths_(azimuths),
       weight_(weight),
       silhouettes_(silhouettes),
       overhangs_(overhangs),
-      gaps_(gaps),
+      gap_tolerance_(gap_tolerance),
       jump_places_(jumps),
       residual_(far, azimuths),
       group_(azimuths),
       recesses_(azimuths, silhouettes),
       jumps_(azimuths),
+      sections_(azimuths),
       horizons_(azimuths, PacketHorizon::Edges::tracked) {}
 
 void HorizonEngine::tell_profiles(ProfileRows rows, OnProfile on_profile) {
@@ -66,6 +66,7 @@ void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const
   };
   keep(silhouettes_.near, in_sight_.near);
   keep(silhouettes_.far, in_sight_.far);
+  if (in_sight_.has_undersides()) sections_.begin(packets, horizons);
 }
 
 void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
@@ -107,7 +108,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& ov
     const auto [sky, correction] = sky_above(horizons_.grounded, receivers);
     corrections_ = correction;
     for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = answer.drawn[l] = {sky[l], sky[l], sky[l]};
-    answer.by_rays = answer.by_gap_rays = 0;
+    answer.by_rays = 0;
     answer.decided_wedges = 0;
     return;
   }
@@ -117,12 +118,12 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& ov
   horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::lowest);
   const auto [sky, correction] = sky_above(horizons_.upper_borders, receivers);
   corrections_ = correction;
-  const SkyInGaps gaps = sky_in_gaps(receivers);
+  const Lanes in_gaps = sky_in_gaps(receivers, overhead);
   for (std::size_t l = 0; l < sky.size(); ++l) {
-    const float sum = std::min(sky[l] + gaps.sky[l], 1.0F);
+    const float sum = std::min(sky[l] + in_gaps[l], 1.0F);
     answer.svf[l] = answer.drawn[l] = {sum, sum, sum};
   }
-  answer.by_rays = answer.by_gap_rays = gaps.by_rays;
+  answer.by_rays = 0;
   answer.decided_wedges = 0;
 }
 
@@ -188,52 +189,53 @@ void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPa
   (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, profile_->solid_sky);
 }
 
-void HorizonEngine::profile_gaps(const ReceiverPacket& receivers) {
-  // The share of all between the borders, of which the far occluders are a part
-  horizons_.grounded.find_sky_below(horizons_.lower_borders, weight_, receivers, all_gap_rows_);
-  for (std::size_t k = 0; k < azimuths_.size(); ++k) {
-    profile_->gap_from.push_back(horizons_.grounded.row(k));
-    profile_->gap_to.push_back(horizons_.lower_borders.row(k));
-    PacketHorizon::Row& share = profile_->gap_share.emplace_back();
-    for (std::size_t l = 0; l < share.size(); ++l)
-      if (all_gap_rows_[k][l] > 0.0F) share[l] = std::min(seen_rows_[k][l] / all_gap_rows_[k][l], 1.0F);
+Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead) {
+  if (horizons_.lower_borders.exceeds(horizons_.grounded) == 0) return {};
+  // What is above the upper borders counts already
+  horizons_.lower_borders.lower_to(horizons_.upper_borders);
+  horizons_.grounded.find_sky_below(horizons_.lower_borders, weight_, receivers, gap_rows_);
+  Lanes sky = sum(gap_rows_);
+  std::uint32_t asked = 0;
+  for (std::size_t l = 0; l < receivers.count; ++l) {
+    if (sky[l] > gap_tolerance_) asked |= 1U << l;
+    sky[l] = sky[l] > gap_tolerance_ ? 0.0F : sky_in_small_gaps * sky[l];
   }
+  const std::span<const OpenGap> open = asked == 0 ? std::span<const OpenGap>() : open_gaps(receivers, overhead, asked);
+  for (const OpenGap& gap : open) sky[gap.lane] += gap.sky / static_cast<float>(azimuths_.size());
+  if (profile_) profile_gaps(open, asked, receivers);
+  return sky;
 }
 
-HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers) {
-  SkyInGaps gaps;
-  // Receivers with little sky in gaps: half of it counts
-  sky_of_gaps_ = horizons_.find_sky_in_gaps(weight_, receivers, gap_rows_);
-  const Lanes most = sum(sky_of_gaps_);
-  for (std::size_t l = 0; l < receivers.count; ++l) gaps.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
-  for (std::size_t l = 0; l < most.size(); ++l) gaps.sky[l] = 0.5F * most[l];
-  if (profile_) {
-    seen_rows_.assign(sky_of_gaps_.begin(), sky_of_gaps_.end());
-    for (PacketHorizon::Row& row : seen_rows_)
-      for (float& sky : row) sky *= 0.5F;
-  }
-  // The others: rays decide
-  if (gaps.by_rays != 0) trace_sky_in_gaps(receivers, gaps);
-  if (profile_ && !sky_of_gaps_.empty()) profile_gaps(receivers);
-  return gaps;
+std::span<const OpenGap> HorizonEngine::open_gaps(const ReceiverPacket& receivers, const Overhead& overhead,
+                                                  std::uint32_t asked) {
+  const Gaps gaps{
+      horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders, gap_rows_, asked};
+  return overhead.in_recess != 0 ? sections_.find_any_open(overhangs_.facets(), gaps, weight_, receivers)
+                                 : sections_.find_open(overhangs_.facets(), gaps, weight_, receivers);
 }
 
-void HorizonEngine::trace_sky_in_gaps(const ReceiverPacket& receivers, SkyInGaps& gaps) {
-  // Trace all gaps but the smallest
-  Lanes untraced{};
-  const std::vector<PacketHorizon::Row> before = profile_ ? gap_rows_ : std::vector<PacketHorizon::Row>();
-  for (std::size_t l = 0; l < receivers.count; ++l)
-    if (has_bit(gaps.by_rays, l)) untraced[l] = remove_smallest_gaps(gap_rows_, l, untraced_of_tolerance * gaps_.tolerance);
-  for (std::size_t k = 0; k < before.size(); ++k)
-    for (std::size_t l = 0; l < before[k].size(); ++l)
-      if (has_bit(gaps.by_rays, l)) seen_rows_[k][l] = gap_rows_[k][l] > 0.0F ? 0.0F : sky_in_untraced * before[k][l];
-  const Gaps traced{horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders,
-                    gap_rows_};
-  const Lanes seen = trace_gaps(traced, azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(),
-                                gaps_.stop, profile_ ? std::span(seen_rows_) : std::span<PacketHorizon::Row>())
-                         .sky;
-  for (std::size_t l = 0; l < seen.size(); ++l)
-    if (has_bit(gaps.by_rays, l)) gaps.sky[l] = seen[l] + sky_in_untraced * untraced[l];
+void HorizonEngine::profile_gaps(std::span<const OpenGap> open, std::uint32_t asked, const ReceiverPacket& receivers) {
+  const std::size_t count = azimuths_.size();
+  for (SkyProfile::Rows* rows : {&profile_->gap_from, &profile_->gap_to, &profile_->gap_share}) rows->assign(count, {});
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t l = 0; l < receivers.count; ++l) {
+      if (has_bit(asked, l) || gap_rows_[k][l] <= 0.0F) continue;
+      profile_->gap_from[k][l] = horizons_.grounded.row(k)[l];
+      profile_->gap_to[k][l] = horizons_.lower_borders.row(k)[l];
+      profile_->gap_share[k][l] = sky_in_small_gaps;
+    }
+  for (const OpenGap& gap : open) {
+    profile_->gap_from[gap.azimuth][gap.lane] = gap.from;
+    profile_->gap_to[gap.azimuth][gap.lane] = gap.to;
+    profile_->gap_share[gap.azimuth][gap.lane] = 1.0F;
+  }
+  // A gap that is split: the share of all between its ends
+  sky_kernels().find_sky_between(profile_->gap_from.front().data(), profile_->gap_to.front().data(), receivers, azimuths_.view(),
+                                 weight_ == SkyWeight::solid_angle, gap_rows_.front().data());
+  for (const OpenGap& gap : open) {
+    const float all = gap_rows_[gap.azimuth][gap.lane] * static_cast<float>(count);
+    if (gap.is_split && all > 0.0F) profile_->gap_share[gap.azimuth][gap.lane] = std::min(gap.sky / all, 1.0F);
+  }
 }
 
 }  // namespace farlod

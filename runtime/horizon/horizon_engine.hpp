@@ -14,7 +14,7 @@
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/certain_sky.hpp"
-#include "horizon/gap_rays.hpp"
+#include "horizon/gap_sections.hpp"
 #include "horizon/horizon_jumps.hpp"
 #include "horizon/overhangs.hpp"
 #include "horizon/packet_horizon.hpp"
@@ -34,8 +34,7 @@ struct PacketAnswer {
   /// What the profiles hold that OnProfile is told, and what the far map and gaps may change at their azimuths: with bounds
   /// alone.
   std::array<SvfInterval, ReceiverPacket::lanes> drawn{};
-  std::uint32_t by_rays = 0;         ///< a bit for each receiver that rays were traced for, or that the whole city decided
-  std::uint32_t by_gap_rays = 0;     ///< a bit for each whose gaps hold more sky than the tolerance
+  std::uint32_t by_rays = 0;         ///< a bit for each receiver that the whole city decided
   std::uint64_t decided_wedges = 0;  ///< that the whole city decided because of an AllowedError
 };
 
@@ -45,21 +44,15 @@ enum class JumpPlaces : std::uint8_t {
   at_edge_ends       ///< where the edges end: HorizonJumps
 };
 
-/// How gaps are treated.
-struct GapSettings {
-  /// A receiver with at most so much sky in its gaps needs no rays: half of it counts.
-  float tolerance = 0.0F;
-  std::size_t rays_per_azimuth = 4;
-  std::stop_token stop = {};  ///< ends the tracing of gaps with Cancelled
-};
-
-/// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. For
-/// receivers of one cell. docs/concepts.md, "Above a horizon" and "What is grounded, and what overhangs".
+/// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. In
+/// gaps below overhangs, it is what their facets leave open. For receivers of one cell. docs/concepts.md, "Above a horizon" and
+/// "What is grounded, and what overhangs".
 class HorizonEngine {
  public:
-  /// All must outlive it.
+  /// All must outlive it. Of a receiver that has no more sky than `gap_tolerance` in all of its gaps together, these are
+  /// estimated: the error is less than that.
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
-                OverhangGeometry& overhangs, const GapSettings& gaps, JumpPlaces jumps = JumpPlaces::at_edge_ends);
+                OverhangGeometry& overhangs, float gap_tolerance, JumpPlaces jumps = JumpPlaces::at_edge_ends);
   /// From now on, evaluate_with_bounds keeps this error.
   void keep(const AllowedError& allowed) {
     allowed_error_ = static_cast<float>(allowed.error);
@@ -94,20 +87,16 @@ class HorizonEngine {
   [[nodiscard]] const CellOverhangs& in_sight(const Overhead& overhead) const {
     return overhead.in_recess != 0 ? silhouettes_ : in_sight_;
   }
-  /// The sky seen in gaps, and a bit for each receiver that needs rays for it.
-  struct SkyInGaps {
-    Lanes sky{};
-    std::uint32_t by_rays = 0;
-  };
   /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   /// The sky in the gaps of `horizons_`, as drawn.
-  [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
-  /// Does so for the receivers that need rays.
-  void trace_sky_in_gaps(const ReceiverPacket& receivers, SkyInGaps& gaps);
+  [[nodiscard]] Lanes sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead);
+  /// What the facets leave open of the gaps of those receivers that are asked for.
+  [[nodiscard]] std::span<const OpenGap> open_gaps(const ReceiverPacket& receivers, const Overhead& overhead,
+                                                   std::uint32_t asked);
   /// What is known of a profile at the estimate of a horizon, and of the gaps below it.
   void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
-  void profile_gaps(const ReceiverPacket& receivers);
+  void profile_gaps(std::span<const OpenGap> open, std::uint32_t asked, const ReceiverPacket& receivers);
 
   /// The sky at the azimuths of a profile, at least and at most; of horizons without the residual.
   struct SkyAtAzimuths {
@@ -120,7 +109,7 @@ class HorizonEngine {
   SkyWeight weight_;
   const CellSilhouettes& silhouettes_;
   OverhangGeometry& overhangs_;
-  GapSettings gaps_;
+  float gap_tolerance_;
   JumpPlaces jump_places_;
   PixelHorizon* pixels_ = nullptr;
   float allowed_error_ = 1.0F;
@@ -131,14 +120,14 @@ class HorizonEngine {
   PacketGroup group_;
   Recesses recesses_;
   HorizonJumps jumps_;
+  GapSections sections_;
   // Working memory, kept from packet to packet
   std::vector<PacketHorizon> grounded_;  ///< of each packet
   CellOverhangs in_sight_;               ///< overhangs that may rise above some of them
   OverhangHorizons horizons_;
-  std::vector<PacketHorizon::Row> gap_rows_, seen_rows_, all_gap_rows_;
-  std::span<const PacketHorizon::Row> sky_of_gaps_;  ///< in these; empty without gaps
-  Lanes corrections_{};                              ///< of the estimate, by its jumps
-  std::optional<CertainSky> certain_;                ///< once somebody asks for bounds
+  std::vector<PacketHorizon::Row> gap_rows_;
+  Lanes corrections_{};                ///< of the estimate, by its jumps
+  std::optional<CertainSky> certain_;  ///< once somebody asks for bounds
 };
 
 }  // namespace farlod

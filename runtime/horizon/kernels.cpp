@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "horizon/gap_kernels.hpp"
 #include "horizon/pixel_march.hpp"
 #include "horizon/wedge_kernels.hpp"
 
@@ -14,6 +15,7 @@ namespace farlod {
   namespace target {                              \
   extern const EdgeKernels edge_kernels;          \
   extern const SkyKernels sky_kernels;            \
+  extern const GapKernels gap_kernels;            \
   extern const WedgeEndKernels wedge_end_kernels; \
   extern const WedgeSkyKernels wedge_sky_kernels; \
   extern const PixelKernels pixel_kernels;        \
@@ -40,14 +42,14 @@ std::vector<KernelTarget> find_runnable_kernels() {
   std::vector<KernelTarget> targets;
 #ifdef FARLOD_X86_TARGETS
   if (runs_avx512())
-    targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::wedge_end_kernels,
+    targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::gap_kernels, &avx512::wedge_end_kernels,
                        &avx512::wedge_sky_kernels, &avx512::pixel_kernels});
   if (runs_avx2())
-    targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::wedge_end_kernels, &avx2::wedge_sky_kernels,
-                       &avx2::pixel_kernels});
+    targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::gap_kernels, &avx2::wedge_end_kernels,
+                       &avx2::wedge_sky_kernels, &avx2::pixel_kernels});
 #endif
-  targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::wedge_end_kernels,
-                     &baseline::wedge_sky_kernels, &baseline::pixel_kernels});
+  targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::gap_kernels,
+                     &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels, &baseline::pixel_kernels});
   return targets;
 }
 
@@ -65,6 +67,11 @@ const EdgeKernels& edge_kernels() {
 
 const SkyKernels& sky_kernels() {
   static const SkyKernels& fastest = *runnable_kernels().front().sky;
+  return fastest;
+}
+
+const GapKernels& gap_kernels() {
+  static const GapKernels& fastest = *runnable_kernels().front().gap;
   return fastest;
 }
 

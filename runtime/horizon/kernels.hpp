@@ -62,17 +62,6 @@ struct ResidualRows {
   ReceiverPacket::Lanes shares, caps;
 };
 
-/// One azimuth d of a gap, and whether its sky is weighted by solid angle instead of the cosine.
-struct GapAzimuth {
-  float cosine, sine;
-  bool is_solid;
-};
-
-/// The ends of a gap at one azimuth: sines of the elevation, and the sky above them.
-struct GapEnds {
-  alignas(64) ReceiverPacket::Lanes sine_from, sine_to, sky_from, sky_to;
-};
-
 /// From this azimuth to the next, the sky of the receivers with set bits jumps.
 struct SkyJump {
   std::uint32_t azimuth, receivers;
@@ -115,15 +104,9 @@ struct SkyKernels {
   /// numbers[azimuth][receiver] becomes −1; `numbers` may be null.
   void (*raise_between_rows)(const ResidualRows& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
                              float* slopes, std::int32_t* numbers);
-
-  /// The ends of a gap between two slopes, within what each receiver's normal sees.
-  void (*find_gap_ends)(const float* from, const float* to, const ReceiverPacket& receivers, const GapAzimuth& azimuth,
-                        GapEnds& ends);
-  /// The slopes below which this share of a gap's sky lies.
-  void (*find_gap_slopes)(const GapEnds& ends, const ReceiverPacket& receivers, const GapAzimuth& azimuth, float share,
-                          float* slopes);
 };
 
+struct GapKernels;
 struct WedgeEndKernels;
 struct WedgeSkyKernels;
 struct PixelKernels;
@@ -133,6 +116,7 @@ struct KernelTarget {
   const char* name;
   const EdgeKernels* edge;
   const SkyKernels* sky;
+  const GapKernels* gap;
   const WedgeEndKernels* wedge_end;
   const WedgeSkyKernels* wedge_sky;
   const PixelKernels* pixel;
@@ -144,6 +128,7 @@ struct KernelTarget {
 /// The fastest of them.
 [[nodiscard]] const EdgeKernels& edge_kernels();
 [[nodiscard]] const SkyKernels& sky_kernels();
+[[nodiscard]] const GapKernels& gap_kernels();
 [[nodiscard]] const WedgeEndKernels& wedge_end_kernels();
 [[nodiscard]] const WedgeSkyKernels& wedge_sky_kernels();
 [[nodiscard]] const PixelKernels& pixel_kernels();

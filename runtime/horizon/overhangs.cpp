@@ -87,6 +87,13 @@ std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(co
   return result;
 }
 
+const OverhangFacets& OverhangGeometry::facets() {
+  if (facets_) return *facets_;
+  facets_.emplace();
+  for (const TriangleCorners& t : triangles_in(package_.grid().neighborhood_of(cell_))) facets_->add(t);
+  return *facets_;
+}
+
 PlacedScene OverhangGeometry::scene() {
   if (city_ != nullptr) return city_->seen_from(cell_);
   if (scene_) return {*scene_, {}};

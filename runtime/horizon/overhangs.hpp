@@ -12,6 +12,7 @@
 #include "farlod/point.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
+#include "horizon/overhang_facets.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_partition.hpp"
@@ -36,14 +37,16 @@ namespace farlod {
 /// The overhanging buildings around a cell (not SurfaceRecord::is_grounded), triangle by triangle. Cell frame. Of one thread.
 class OverhangGeometry {
  public:
-  using TriangleCorners = std::array<Point3f, 3>;
+  using TriangleCorners = OverhangFacets::Corners;
 
   /// The package and the city must outlive it. With a city, rays are traced against that instead of a scene of the cell's own.
   OverhangGeometry(const PackageReader& package, Cell cell, const WholeCityOnDemand* city = nullptr);
 
   /// A bit for each receiver that is below an overhang.
   [[nodiscard]] std::uint32_t receivers_below(const ReceiverPacket& receivers) const;
-  /// All overhangs of the neighborhood, for rays, or the whole city. Built at the first call.
+  /// All overhangs of the neighborhood. Sorted out at the first call.
+  [[nodiscard]] const OverhangFacets& facets();
+  /// The same for rays, or the whole city. Built at the first call.
   [[nodiscard]] PlacedScene scene();
 
  private:
@@ -53,6 +56,7 @@ class OverhangGeometry {
   Cell cell_;
   const WholeCityOnDemand* city_;
   std::vector<TriangleCorners> overhead_;  ///< what may lie above receivers of the cell
+  std::optional<OverhangFacets> facets_;
   std::optional<Occluder> scene_;
 };
 

@@ -18,17 +18,6 @@ namespace {
 
 static_assert(ReceiverPacket::lanes == lane_count);
 
-// --- The sky of one azimuth
-// --------------------------------------------------------------------------------------------------------
-
-/// A(t), with t clamped to the slopes in front of the receiver, at the azimuth (cosine, sine).
-FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float cosine, float sine, bool is_solid) {
-  const Floats outward = n.x * cosine + n.y * sine;
-  const SlopeInterval in_front = slopes_in_front(outward, n.z);
-  const Floats t = min(max(slope, in_front.lowest), in_front.highest);
-  return is_solid ? solid_angle_above(t) : cosine_above(t, outward, n.z);
-}
-
 // --- The sky above horizons: sums over the azimuths, in their order
 // ----------------------------------------------------------------
 
@@ -206,47 +195,6 @@ void raise_between_rows(const ResidualRows& rows, const std::uint32_t* bin_of_az
   }
 }
 
-// --- Rays in gaps
-// ------------------------------------------------------------------------------------------------------------------
-
-/// sin θ = t / √(1 + t²), and its inverse.
-FARLOD_LANES Floats sine_of(const Floats& slope) { return slope / sqrt(1.0F + slope * slope); }
-FARLOD_LANES Floats slope_of(const Floats& sine) { return sine / sqrt(max(1.0F - sine * sine, broadcast(1e-12F))); }
-
-void find_gap_ends(const float* from, const float* to, const ReceiverPacket& receivers, const GapAzimuth& azimuth,
-                   GapEnds& ends) {
-  const Normals n = normals_of(receivers);
-  // Clamp both ends to the slopes in front of each receiver
-  const SlopeInterval in_front = slopes_in_front(n.x * azimuth.cosine + n.y * azimuth.sine, n.z);
-  const Floats begin = min(max(load(from), in_front.lowest), in_front.highest),
-               end = min(max(load(to), in_front.lowest), in_front.highest);
-  store(sine_of(begin), ends.sine_from.data());
-  store(sine_of(end), ends.sine_to.data());
-  store(sky_of_azimuth(begin, n, azimuth.cosine, azimuth.sine, azimuth.is_solid), ends.sky_from.data());
-  store(sky_of_azimuth(end, n, azimuth.cosine, azimuth.sine, azimuth.is_solid), ends.sky_to.data());
-}
-
-/// Solves A(t) = A(from) + share (A(to) − A(from)). By solid angle A is linear in s = sin θ. By the cosine, three steps of
-/// Newton's method from that solution: s ← s + (A(s) − target) / D, with the decline D = −dA/ds = 2 (o cos θ + w sin θ).
-void find_gap_slopes(const GapEnds& ends, const ReceiverPacket& receivers, const GapAzimuth& azimuth, float share,
-                     float* slopes) {
-  constexpr int steps = 3;
-  const Floats from = load(ends.sine_from.data()), to = load(ends.sine_to.data()), sky_from = load(ends.sky_from.data());
-  const Floats target = sky_from + share * (load(ends.sky_to.data()) - sky_from);
-  Floats sine = from + share * (to - from);
-  if (!azimuth.is_solid) {
-    const Normals n = normals_of(receivers);
-    const Floats outward = n.x * azimuth.cosine + n.y * azimuth.sine;
-    for (int step = 0; step < steps; ++step) {
-      const Floats above = cosine_above(slope_of(sine), outward, n.z);
-      const Floats decline = 2.0F * (outward * sqrt(max(1.0F - sine * sine, broadcast(0.0F))) + n.z * sine);
-      // The decline vanishes on the receiver's own plane: bound the step, and stay within the gap
-      sine = min(max(sine + (above - target) / max(decline, broadcast(0.01F)), from), to);
-    }
-  }
-  store(slope_of(sine), slopes);
-}
-
 }  // namespace
 
 namespace FARLOD_TARGET {
@@ -264,9 +212,7 @@ constexpr SkyKernels sky_kernels{.sum_cosine_up = sum_cosine_up,
                                  .find_max_difference = find_max_difference,
                                  .count_above = count_above,
                                  .raise_to_row = raise_to_row,
-                                 .raise_between_rows = raise_between_rows,
-                                 .find_gap_ends = find_gap_ends,
-                                 .find_gap_slopes = find_gap_slopes};
+                                 .raise_between_rows = raise_between_rows};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

@@ -47,6 +47,14 @@ FARLOD_LANES Normals normals_of(const ReceiverPacket& r) {
   return {load(r.normal_x.data()), load(r.normal_y.data()), load(r.normal_z.data())};
 }
 
+/// A(t), with t clamped to the slopes in front of the receiver, at the azimuth (cosine, sine).
+FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float cosine, float sine, bool is_solid) {
+  const Floats outward = n.x * cosine + n.y * sine;
+  const SlopeInterval in_front = slopes_in_front(outward, n.z);
+  const Floats t = min(max(slope, in_front.lowest), in_front.highest);
+  return is_solid ? solid_angle_above(t) : cosine_above(t, outward, n.z);
+}
+
 /// A float that is added to a sum of thousands is rounded to few of its bits, and the same way each time where the horizon is
 /// even. So terms are added up in blocks of 256, and the blocks with compensation (Kahan): rounding does not grow beyond that of
 /// one block, however many azimuths there are. Terms are written to `rows`, if there are rows.

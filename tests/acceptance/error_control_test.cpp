@@ -171,8 +171,9 @@ TEST_F(ErrorControl, ImpossibleWishesAreRefused) {
                  {"--max-error", "at least 8 azimuths"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --azimuths 4 --bounds"), exit_usage,
                  {"--bounds", "at least 8 azimuths"});
-  expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --quantity svf_total --rays 100 --max-error 0.01"),
-                 exit_usage, {"--max-error", "100 rays", "leave the numbers", "at least"});
+  expect_refusal(
+      folder.run("farlod-svf a.farlod -o o.csv --surfaces all --engine rays --quantity svf_total --rays 100 --max-error 0.01"),
+      exit_usage, {"--max-error", "100 rays", "leave the numbers", "at least"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --max-error nan"), exit_usage, {"--max-error"});
 }
 

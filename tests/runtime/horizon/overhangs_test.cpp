@@ -150,7 +150,7 @@ TEST(OverhangGeometry, NothingHangsFromNothing) {
 // drawn by hand.
 
 constexpr float eye_m = 1.5F;
-constexpr std::size_t scene_azimuths = 1024, rays_per_azimuth = 64;
+constexpr std::size_t scene_azimuths = 1024;
 constexpr Point3f level_normal{0.0F, 0.0F, 1.0F};
 
 /// The mean over the circle from the middles of equal parts errs in each part by its variation there at the most. Of these scenes
@@ -269,8 +269,7 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     FarHorizonByHand far({});
     CellSilhouettes silhouettes = GetParam().town.silhouettes();
     silhouettes.number_upper_borders();
-    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), silhouettes, overhangs, {0.0F, rays_per_azimuth},
-                         JumpPlaces::between_azimuths);
+    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), silhouettes, overhangs, 0.0F, JumpPlaces::between_azimuths);
     std::vector<Receiver> receivers;
     for (const Point3f& p : places) receivers.push_back({receivers.size(), p, level_normal});
     std::vector<SvfInterval> intervals(places.size());
