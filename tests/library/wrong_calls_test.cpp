@@ -74,6 +74,7 @@ void add_settings(Cases& cases) {
     cases.add(all, "max_error " + std::to_string(e), with(&S::max_error, e));
   cases.add(all, "an error that so few rays cannot keep", [](Arguments& a) {
     a.settings.max_error = 0.001;
+    a.settings.engine = Engine::rays;
     a.settings.rays = 10;
     a.settings.further.svf_total = true;
   });
