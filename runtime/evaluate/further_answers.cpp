@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/further_answers.hpp"
-#include "evaluate/error_budget.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
+#include "evaluate/error_budget.hpp"
 #include "farlod/angle.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
