@@ -35,7 +35,6 @@ class OverhangFacets {
   };
 
   [[nodiscard]] std::size_t size() const { return count_; }
-  [[nodiscard]] bool empty() const { return count_ == 0; }
   [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
   [[nodiscard]] std::span<const Boxes> boxes() const { return boxes_; }
   void clear() {
