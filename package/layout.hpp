@@ -188,7 +188,7 @@ struct SurfaceRecord {
   std::array<std::uint16_t, 3> packed;  ///< the number of 48 bits, its lowest 16 first
 
   [[nodiscard]] SurfaceKind kind() const { return static_cast<SurfaceKind>(unpacked(kind_shift, kind_bits)); }
-  /// Nobody outside has the surface's building overhead, and no gap is seen below it.
+  /// Nobody outside has the surface overhead, and it hides nothing above the grounded horizon.
   [[nodiscard]] bool is_grounded() const { return unpacked(grounded_shift, 1) != 0; }
   /// Outward, grid frame.
   [[nodiscard]] OctNormal normal() const {

@@ -96,7 +96,8 @@ struct Surface {
   SurfaceKind kind = SurfaceKind::unknown;
   Point3d normal;  ///< outward, length 1, grid frame
   double area_m2 = 0.0;
-  /// The building has no lower borders above the ground: no receiver outside of it has the surface overhead.
+  /// No receiver outside of the building has the surface overhead, and it hides nothing above the grounded horizon: the building
+  /// has no lower borders above the ground, or the surface is a wall below grounded borders.
   bool grounded = true;
 };
 

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "base/ground_contact.hpp"
 #include "city/geometry.hpp"
+#include "tiles/facet_triangulation.hpp"
 #include "tiles/solid_to_ground.hpp"
 #include "tiles/undersides.hpp"
 #include "tiles/walled_in.hpp"
@@ -25,8 +27,8 @@ bool stands_on_ground(const Slab& slab, const GroundHeightAt& ground_m) {
                      [&](const Point3d& p) { return p.z <= ground_m(horizontal(p)) + ground_contact_m; });
 }
 
-/// The stretch of `s` that lies right below `other`, on one line in the plan.
-std::optional<ShareStretch> stretch_below(const Segment3d& s, const Segment3d& other) {
+/// The stretch of `s` that lies right below `other`, on one line in the plan, and at least so far.
+std::optional<ShareStretch> stretch_below(const Segment3d& s, const Segment3d& other, double least_m = on_line_m) {
   const Point2d along = horizontal(s.b - s.a);
   const double square = dot(along, along), run_m = std::sqrt(square);
   const std::array from_begin{horizontal(other.a - s.a), horizontal(other.b - s.a)};
@@ -38,7 +40,7 @@ std::optional<ShareStretch> stretch_below(const Segment3d& s, const Segment3d& o
   if ((shared.to - shared.from) * run_m <= on_line_m) return std::nullopt;
   const auto is_below = [&](double at) {
     const double other_m = std::lerp(other.a.z, other.b.z, (at - share[0]) / (share[1] - share[0]));
-    return std::lerp(s.a.z, s.b.z, at) < other_m - on_line_m;
+    return std::lerp(s.a.z, s.b.z, at) < other_m - least_m;
   };
   return is_below(shared.from) && is_below(shared.to) ? std::optional(shared) : std::nullopt;
 }
@@ -225,6 +227,32 @@ class BorderRoles {
   std::vector<SolidToGround::Recess> recesses_;
 };
 
+bool is_upright(const CityModel& city, const Facet& facet) {
+  const std::span<const Point3d> outer = city.ring(facet, 0);
+  const Point3d area_vector_m2 = area_vector({&outer, 1});
+  const double area_m2 = norm(area_vector_m2);
+  return area_m2 > 0.0 && std::abs(area_vector_m2.z) <= leaning_wall_z * area_m2;
+}
+
+/// Whether all edges of an upright facet lie on borders, or right below them. An upright edge ends where others begin.
+bool lies_below(const SortedSegments& borders, const CityModel& city, const Facet& facet) {
+  for (std::uint32_t r = 0; r < facet.ring_count; ++r) {
+    const std::span<const Point3d> ring = city.ring(facet, r);
+    for (std::size_t n = 0; n < ring.size(); ++n) {
+      const Segment3d edge{ring[n], ring[(n + 1) % ring.size()]};
+      const double run_m = norm(horizontal(edge.b - edge.a));
+      if (run_m <= on_line_m) continue;
+      Stretches above{{}};
+      borders.visit_near(edge, [&](const Segment3d& border) {
+        if (const auto below = stretch_below(edge, border, -on_line_m)) above = without(above, *below);
+      });
+      const auto is_long = [&](const ShareStretch& s) { return (s.to - s.from) * run_m > on_line_m; };
+      if (std::any_of(above.begin(), above.end(), is_long)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,
@@ -248,6 +276,35 @@ BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<
     for (const HorizonSegment& part : roles.outside_of_solid(underside)) add_seen_parts(part, hiding, result.undersides);
   building.slabs = {};
   return result;
+}
+
+NumbersOfWalls walls_of(const CityModel& city_grid, const Building& building, const std::vector<UpperBorder>& borders) {
+  std::vector<Segment3d> of_walls;
+  for (const UpperBorder& border : borders)
+    if (border.by_wall) of_walls.push_back(border.segment.segment);
+  const SortedSegments hiding(std::move(of_walls));
+  const bool all_grounded =
+      std::all_of(borders.begin(), borders.end(), [](const UpperBorder& b) { return b.segment.role == EdgeRole::grounded; });
+  struct Known {
+    bool is_wall = true, is_hidden = true;
+  };
+  std::map<std::uint32_t, Known> surfaces;
+  for (const Facet& facet : city_grid.facets_of(building)) {
+    Known& surface = surfaces[facet.surface];
+    surface.is_wall = surface.is_wall && is_upright(city_grid, facet);
+    surface.is_hidden = surface.is_hidden && surface.is_wall && lies_below(hiding, city_grid, facet);
+  }
+  NumbersOfWalls walls;
+  for (const auto& [number, surface] : surfaces) {
+    if (!surface.is_wall) continue;
+    walls.all.push_back(number);
+    if (all_grounded || surface.is_hidden) walls.hidden.push_back(number);
+  }
+  return walls;
+}
+
+void tell_what_overhangs(std::span<Surface> surfaces, const std::vector<std::uint32_t>& walls) {
+  for (Surface& s : surfaces) s.grounded = std::binary_search(walls.begin(), walls.end(), s.number);
 }
 
 std::vector<HorizonSegment> placed_borders(const std::vector<UpperBorder>& borders, bool has_undersides) {

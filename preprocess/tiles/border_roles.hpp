@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
+#include "city/city_model.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/horizon_edges.hpp"
@@ -29,6 +32,18 @@ struct BordersWithRoles {
 /// `undersides`: those of the building that are above the ground. It loses its walls, slabs and corners.
 [[nodiscard]] BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,
                                                   const GroundHeightAt& ground_height);
+
+/// The numbers of the upright surfaces of a building, sorted.
+struct NumbersOfWalls {
+  std::vector<std::uint32_t> all;
+  /// All their edges lie on borders of walls, or right below these, which face all eyes if the building has lower borders.
+  std::vector<std::uint32_t> hidden;
+};
+[[nodiscard]] NumbersOfWalls walls_of(const CityModel& city_grid, const Building& building,
+                                      const std::vector<UpperBorder>& borders);
+
+/// All surfaces of a building that overhangs do, but for these walls. Roofs that hide nothing either may be overhead.
+void tell_what_overhangs(std::span<Surface> surfaces, const std::vector<std::uint32_t>& walls);
 
 /// What is placed of the upper borders: where `has_undersides`, with their roles; else all of them are grounded.
 [[nodiscard]] std::vector<HorizonSegment> placed_borders(const std::vector<UpperBorder>& borders, bool has_undersides);

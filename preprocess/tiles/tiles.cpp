@@ -81,9 +81,8 @@ class TileCutter {
     std::vector<ClosingTriangle> closing;  ///< cracks where it touches others
     std::optional<std::uint32_t> closing_surface;
     std::optional<Cell> only_cell;
-    struct {
-      std::uint32_t begin = 0, end = 0;
-    } surfaces;  ///< in TileSet::surfaces
+    std::uint32_t first_surface = 0, end_surface = 0;  ///< in TileSet::surfaces
+    NumbersOfWalls walls;
   };
 
   [[nodiscard]] double lowest_whole_metre() const {
@@ -213,11 +212,13 @@ class TileCutter {
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
     overhanging.only_cell = cut_building.only_cell;
     overhanging.closing_surface = closing_surface;
-    overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
     if (!cut_building.walls) cut_building.walls = wall_profiles(city_, building);
     BordersWithRoles borders = borders_with_roles(cut_building, undersides, [this, foundation_top_m](Point2d p) {
       return std::max(ground_->height_at(p), foundation_top_m);
     });
+    overhanging.first_surface = first_surface;
+    overhanging.end_surface = static_cast<std::uint32_t>(tiles_.surfaces.size());
+    overhanging.walls = walls_of(city_, building, borders.upper);
     place_closing(borders.closing, first_surface, cut_building.only_cell, overhanging.closing_surface);
     overhanging.upper_borders = std::move(borders.upper);
     overhanging.undersides = cut(borders.undersides, cut_building.only_cell);
@@ -309,8 +310,8 @@ class TileCutter {
     });
     close_contacts();
     for (const OverhangingBuilding& building : overhanging_) {
-      // A roof whose borders all touch walls shows no sky below them. A receiver below it still has it overhead
-      for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
+      tell_what_overhangs(std::span(tiles_.surfaces).first(building.end_surface).subspan(building.first_surface),
+                          building.undersides.empty() ? building.walls.all : building.walls.hidden);
       for (const CellEdge& edge : cut(placed_borders(building.upper_borders, !building.undersides.empty()), building.only_cell))
         place(edge);
       for (const CellEdge& underside : building.undersides) place(underside);
@@ -339,7 +340,7 @@ class TileCutter {
   void close_contacts() {
     bool some = false;
     for (OverhangingBuilding& building : overhanging_) {
-      place_closing(building.closing, building.surfaces.begin, building.only_cell, building.closing_surface);
+      place_closing(building.closing, building.first_surface, building.only_cell, building.closing_surface);
       if (building.closing_surface) tiles_.surfaces[*building.closing_surface].grounded = false;
       some = some || !building.closing.empty();
     }

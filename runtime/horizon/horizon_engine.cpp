@@ -210,7 +210,7 @@ std::span<const OpenGap> HorizonEngine::open_gaps(const ReceiverPacket& receiver
                                                   std::uint32_t asked) {
   const Gaps gaps{
       horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders, gap_rows_, asked};
-  return overhead.in_recess != 0 ? sections_.find_any_open(overhangs_.facets(), gaps, weight_, receivers)
+  return overhead.in_recess != 0 ? sections_.find_any_open(overhangs_.facets_around_recesses(), gaps, weight_, receivers)
                                  : sections_.find_open(overhangs_.facets(), gaps, weight_, receivers);
 }
 

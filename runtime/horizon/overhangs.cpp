@@ -62,36 +62,58 @@ OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, cons
   constexpr std::int32_t reach = TrianglesOfCell::reach_of_whole_buildings;
   const CellRange near = package.grid().neighborhood_of(cell);
   overhead_ =
-      triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1}
-                          : CellRange{std::min(near.i_begin, cell.i - reach), std::min(near.j_begin, cell.j - reach),
-                                      std::max(near.i_end, cell.i + reach + 1), std::max(near.j_end, cell.j + reach + 1)});
+      overhanging_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1}
+                            : CellRange{std::min(near.i_begin, cell.i - reach), std::min(near.j_begin, cell.j - reach),
+                                        std::max(near.i_end, cell.i + reach + 1), std::max(near.j_end, cell.j + reach + 1)});
   std::erase_if(overhead_, is_upright);
 }
 
-std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(const CellRange& cells) const {
+template <class Visit>
+void OverhangGeometry::visit_triangles(const CellRange& cells, const Visit& visit) const {
   const Grid& grid = package_.grid();
   const CellRange range = cells.intersection(grid.cells);
-  std::vector<TriangleCorners> result;
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
     const TileView tile = package_.tile(range.cell_at(n));
     const Point2d shift_m = grid.corner_of(range.cell_at(n)) - grid.corner_of(cell_);
     const auto corner = [&](std::uint32_t v) { return placed(tile.mesh.vertices[v], shift_m); };
     std::uint32_t first = 0;
     for (const package::SurfaceRun& run : tile.surface_runs) {
-      if (!tile.surfaces[run.surface].is_grounded())
+      const package::SurfaceRecord& surface = tile.surfaces[run.surface];
+      if (surface.kind() != SurfaceKind::ground)
         for (const Triangle& t : tile.mesh.triangles.subspan(first, run.end - first))
-          result.push_back({corner(t.a), corner(t.b), corner(t.c)});
+          visit(TriangleCorners{corner(t.a), corner(t.b), corner(t.c)}, !surface.is_grounded());
       first = run.end;
     }
   }
+}
+
+std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::overhanging_in(const CellRange& cells) const {
+  std::vector<TriangleCorners> result;
+  visit_triangles(cells, [&](const TriangleCorners& t, bool is_overhanging) {
+    if (is_overhanging) result.push_back(t);
+  });
   return result;
 }
 
 const OverhangFacets& OverhangGeometry::facets() {
   if (facets_) return *facets_;
   facets_.emplace();
-  for (const TriangleCorners& t : triangles_in(package_.grid().neighborhood_of(cell_))) facets_->add(t);
+  for (const TriangleCorners& t : overhanging_in(package_.grid().neighborhood_of(cell_))) facets_->add(t);
   return *facets_;
+}
+
+const OverhangFacets& OverhangGeometry::facets_around_recesses() {
+  if (around_recesses_) return *around_recesses_;
+  around_recesses_ = facets();
+  // Recesses of the cell's receivers reach no farther than beyond its border
+  constexpr auto reach_m = static_cast<float>(2.0 * most_recess_extent_m);
+  const auto cell_m = static_cast<float>(package_.grid().cell_edge_m);
+  visit_triangles({cell_.i - 1, cell_.j - 1, cell_.i + 2, cell_.j + 2}, [&](const TriangleCorners& t, bool is_overhanging) {
+    const auto [low, high] = box_of(t);
+    if (!is_overhanging && std::max(low.x, low.y) <= cell_m + reach_m && std::min(high.x, high.y) >= -reach_m)
+      around_recesses_->add(t);
+  });
+  return *around_recesses_;
 }
 
 PlacedScene OverhangGeometry::scene() {
@@ -99,7 +121,7 @@ PlacedScene OverhangGeometry::scene() {
   if (scene_) return {*scene_, {}};
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
-  for (const TriangleCorners& t : triangles_in(package_.grid().neighborhood_of(cell_))) {
+  for (const TriangleCorners& t : overhanging_in(package_.grid().neighborhood_of(cell_))) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), t.begin(), t.end());
     triangles.push_back({first, first + 1, first + 2});

@@ -34,7 +34,7 @@ namespace farlod {
   return origins;
 }
 
-/// The overhanging buildings around a cell (not SurfaceRecord::is_grounded), triangle by triangle. Cell frame. Of one thread.
+/// What overhangs around a cell (not SurfaceRecord::is_grounded), triangle by triangle. Cell frame. Of one thread.
 class OverhangGeometry {
  public:
   using TriangleCorners = OverhangFacets::Corners;
@@ -46,17 +46,23 @@ class OverhangGeometry {
   [[nodiscard]] std::uint32_t receivers_below(const ReceiverPacket& receivers) const;
   /// All overhangs of the neighborhood. Sorted out at the first call.
   [[nodiscard]] const OverhangFacets& facets();
+  /// These and all of the cell's own buildings, for receivers in recesses: they know nothing of what the borders around them
+  /// hide.
+  [[nodiscard]] const OverhangFacets& facets_around_recesses();
   /// The same for rays, or the whole city. Built at the first call.
   [[nodiscard]] PlacedScene scene();
 
  private:
-  [[nodiscard]] std::vector<TriangleCorners> triangles_in(const CellRange& cells) const;
+  /// Calls visit(triangle, is_overhanging) for all of buildings.
+  template <class Visit>
+  void visit_triangles(const CellRange& cells, const Visit& visit) const;
+  [[nodiscard]] std::vector<TriangleCorners> overhanging_in(const CellRange& cells) const;
 
   const PackageReader& package_;
   Cell cell_;
   const WholeCityOnDemand* city_;
   std::vector<TriangleCorners> overhead_;  ///< what may lie above receivers of the cell
-  std::optional<OverhangFacets> facets_;
+  std::optional<OverhangFacets> facets_, around_recesses_;
   std::optional<Occluder> scene_;
 };
 

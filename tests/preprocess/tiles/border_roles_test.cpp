@@ -67,6 +67,27 @@ TEST(BorderRoles, AClosedHouseIsGroundedButForItsProjectingFloor) {
   EXPECT_EQ(borders.overhang, test::as_set({{{10, 8, 6}, {20, 8, 6}}, {{10, 8, 6}, {10, 10, 6}}, {{20, 8, 6}, {20, 10, 6}}}));
 }
 
+/// The numbers of the grounded surfaces of one building.
+std::vector<std::uint32_t> grounded_surfaces(const std::vector<Face>& faces) {
+  test::SmallTown town;
+  town.add("house", faces);
+  std::vector<std::uint32_t> numbers;
+  for (const Surface& s : town.tiles().surfaces)
+    if (s.building == 1 && s.grounded) numbers.push_back(s.number);
+  return numbers;
+}
+
+TEST(BorderRoles, OfAHouseThatOverhangsTheWallsBelowGroundedBordersDoNot) {
+  // With eaves, all four walls, but neither the floor nor the roofs
+  EXPECT_EQ(grounded_surfaces(house_with_eaves()), (std::vector<std::uint32_t>{1, 2, 3, 4}));
+  // The wall below the projecting floor, and the back; not the sides, which project
+  EXPECT_EQ(grounded_surfaces(house_with_projecting_floor()), (std::vector<std::uint32_t>{3, 5}));
+  // A wall that is seen above the next one's border, through a gap of 1 m below it
+  std::vector<Face> faces = house_with_eaves();
+  faces[1] = {{10, 10, 1}, {20, 10, 1}, {20, 10, 5}, {10, 10, 5}};
+  EXPECT_EQ(grounded_surfaces(faces), (std::vector<std::uint32_t>{2, 3, 4}));
+}
+
 TEST(BorderRoles, AHouseWithAHoleIsNoSolid) {
   std::vector<Face> faces = house_with_projecting_floor();
   faces.pop_back();  // the west wall

@@ -110,16 +110,10 @@ inline std::vector<Segment3d> edges_of(const TileSet& tiles, EdgeRole role) {
   return as_set(std::move(edges));
 }
 
-/// Whether all surfaces of the building with this number are grounded; they must agree.
+/// Whether all surfaces of the building with this number are grounded.
 inline bool is_grounded(const TileSet& tiles, std::uint32_t building) {
-  bool some = false, all = true;
-  for (const Surface& s : tiles.surfaces)
-    if (s.building == building) {
-      some = some || s.grounded;
-      all = all && s.grounded;
-    }
-  if (some != all) throw std::logic_error("a building is grounded as a whole or not at all");
-  return all;
+  return std::all_of(tiles.surfaces.begin(), tiles.surfaces.end(),
+                     [&](const Surface& s) { return s.building != building || s.grounded; });
 }
 
 }  // namespace farlod::tiles::test
