@@ -8,14 +8,34 @@
 #include <istream>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "console/option_list.hpp"
 #include "console/run_options.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {
+
+namespace {
+
+/// CLI11 tells groups of options of which one must be chosen last, below "[Option Group: NAME]". They are what one looks for.
+class ChoicesFirst : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (mode == CLI::AppFormatMode::Sub) return make_expanded(app);
+    return make_description(app) + make_usage(app, std::move(name)) + make_positionals(app) + make_subcommands(app, mode) +
+           make_groups(app, mode) + '\n' + make_footer(app);
+  }
+  std::string make_expanded(const CLI::App* group) const override {
+    const std::string text = CLI::Formatter::make_expanded(group);
+    return "\n" + group->get_group() + ":" + text.substr(text.find('\n'));
+  }
+};
+
+}  // namespace
 
 void describe_program(CLI::App& app, const ProgramDescription& program) {
   std::string beginning = program.name + " — " + program.purpose + ".\n\nTry this first:\n";
@@ -26,6 +46,12 @@ void describe_program(CLI::App& app, const ProgramDescription& program) {
   for (const ExitMeaning& meaning : program.exit_codes)
     end += fmt::format("  {:<5}{}\n", static_cast<int>(meaning.code), meaning.text);
   app.name(program.name);
+  app.formatter(std::make_shared<ChoicesFirst>());
+  app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
+    const std::string what = error.what();
+    return fmt::format("{}: {}{} --help tells all options.\n", failed->get_name(), what,
+                       what.ends_with('.') || what.ends_with('?') ? "" : ".");
+  });
   app.description(beginning);
   app.footer(end + "\nCopyright The Far-LoD authors; licence: " + program.licence);
 }
@@ -65,6 +91,41 @@ void add_given(const CLI::App& app, std::vector<GivenOption>& given) {
   for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) add_given(*group, given);
 }
 
+/// How many characters must be put in, left out or changed to make one word of another (Levenshtein 1966).
+std::size_t edits_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
+void add_names(const CLI::App& app, std::vector<std::string>& names) {
+  for (const CLI::Option* o : app.get_options())
+    for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) add_names(*group, names);
+}
+
+/// What was not expected: a misspelt option, with the one that is nearest, or one argument too many.
+CLI::ValidationError unexpected(const CLI::App& app) {
+  constexpr std::size_t most_edits = 2;
+  const std::vector<std::string> rest = app.remaining();
+  const auto option = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with("-"); });
+  if (option == rest.end())
+    return CLI::ValidationError(rest.front(), "nothing is known of this argument; put what has spaces into quotes");
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> names;
+  add_names(app, names);
+  const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& other) { return edits_between(name, other); });
+  const bool is_near = edits_between(name, *nearest) <= most_edits;
+  return CLI::ValidationError(name, "there is no such option" + (is_near ? "; did you mean " + *nearest + "?" : std::string()));
+}
+
 }  // namespace
 
 std::size_t thread_count(const RunOptions& options) {
@@ -100,6 +161,9 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, cons
   } catch (const CLI::ConfigError& error) {
     app.exit(
         CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
+    return exit_usage;
+  } catch (const CLI::ExtrasError&) {
+    app.exit(unexpected(app));
     return exit_usage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_usage;

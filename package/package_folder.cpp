@@ -54,6 +54,8 @@ void require_folder(const fs::path& name) {
                           " is not finished: farlod-pack is making it, or was interrupted; the same command goes "
                           "on with " +
                           unfinished.string() + ".");
+  if (fs::exists(status))
+    throw PackageUnusable(name.string() + " is a file, and a package is a folder: farlod-pack makes one of a city file.");
   throw PackageUnusable(name.string() + " is not a package: there is no such folder. farlod-pack makes one.");
 }
 

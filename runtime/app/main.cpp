@@ -211,6 +211,7 @@ WrittenRun write_enriched_city(const Package& package, const SvfOptions& options
   WrittenRun written{means.summary};
   written.output_bytes = static_cast<double>(std::filesystem::file_size(options.city_file));
   if (!options.writes()) return written;
+  require_answers(written.summary, options, package.description());
   written.files = {options.output};
   const auto start = std::chrono::steady_clock::now();
   written.notes = city.write(package, means, options.output);
@@ -240,6 +241,16 @@ WrittenRun write(const Package& package, const SvfOptions& options, const RunSet
   return write_points(package, options, run);
 }
 
+/// What was kept of a run that has no answers is not worth to go on with.
+WrittenRun write_or_forget(const Package& package, const SvfOptions& options, const RunSettings& run, KeptWork& kept) {
+  try {
+    return write(package, options, run);
+  } catch (const NoAnswer&) {
+    kept.finish();
+    throw;
+  }
+}
+
 void add_light(const std::optional<PeriodLight>& light, WrittenRun& written) {
   written.light = light;
   if (!light) return;
@@ -259,16 +270,14 @@ WrittenRun evaluate(SvfOptions options) {
   KeptWork kept(options, package.description());
   RunSettings run = run_settings(options, progress);
   kept.tell(run);
-  WrittenRun written = write(package, options, run);
+  WrittenRun written = write_or_forget(package, options, run, kept);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
   add_light(light, written);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
-  if (options.evaluation.dry_run) return written;
-  if (options.shard) {
-    kept.finish();
-    return written;
-  }
+  if (const auto note = note_of_ignored_crowns(package, options)) written.notes.push_back(*note);
+  if (options.shard) kept.finish();
+  if (!options.writes()) return written;
   if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);
   if (options.verify_format != nullptr) write_verification(package, options, run.threads, written);
   kept.finish();
@@ -279,12 +288,7 @@ void print_values(const EvaluationSummary& run, const std::string& quantity) {
   if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
   if (run.svf_total)
     fmt::print("svf_total: min {:.4f}, mean {:.4f}, max {:.4f}\n", run.svf_total->min, run.svf_total->mean, run.svf_total->max);
-}
-
-void print_sanity(const EvaluationSummary& run) {
-  if (!run.svf_mean)
-    return fmt::print("No receiver has an answer: all of them lie inside buildings or outside of the package.\n");
-  if (*run.svf_min == *run.svf_max && run.receivers > 100)
+  if (run.svf_mean && *run.svf_min == *run.svf_max && run.receivers > 100)
     fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
 }
 
@@ -327,7 +331,6 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   if (run.outside_of_region > 0) fmt::print("; {} outside of the mask or box", run.outside_of_region);
   fmt::print("\n");
   print_values(run, quantity_name(asked.weight));
-  print_sanity(run);
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);

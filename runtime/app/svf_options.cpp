@@ -37,7 +37,7 @@ ProgramDescription svf_program() {
           .exit_codes = {{exit_done, "done"},
                          {exit_internal, "an internal error"},
                          {exit_usage, "a wrong command line"},
-                         {exit_unusable_input, "an input cannot be read or used"},
+                         {exit_unusable_input, "an input cannot be read or used, or no receiver has an answer"},
                          {exit_damaged_package, "a damaged package"},
                          {exit_limit_reached, "a limit was reached"},
                          {exit_busy, "another process is at work on the same output: try again later"},

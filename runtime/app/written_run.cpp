@@ -18,6 +18,7 @@
 #include "app/sun_of_package.hpp"
 #include "farlod/error.hpp"
 #include "farlod/hemisphere.hpp"
+#include "farlod/inspection.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "results/picture/raster_preview.hpp"
@@ -192,6 +193,15 @@ void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles&
   if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
 }
 
+/// The option that says where receivers are.
+const char* option_of_place(const SvfOptions& options) {
+  if (options.bbox_projected) return "bbox";
+  if (!options.mask_file.empty()) return "mask";
+  if (!options.grid_like.empty()) return "grid-like";
+  constexpr std::array<const char*, 5> of_sources{"grid", "points", "along", "surfaces", "at"};
+  return of_sources.at(static_cast<std::size_t>(options.source));
+}
+
 /// What SOLWEIG may miss.
 void add_notes_of_kit(const Package& package, const SvfOptions& options, std::vector<std::string>& notes) {
   if (!options.format->is_solweig_kit) return;
@@ -204,6 +214,30 @@ void add_notes_of_kit(const Package& package, const SvfOptions& options, std::ve
 }  // namespace
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
+
+void require_answers(const EvaluationSummary& run, const SvfOptions& options, const PackageDescription& city) {
+  if (run.receivers > 0) return;
+  constexpr const char* nothing = "No receiver has an answer, and nothing was written";
+  const Box2d& box = city.outline_projected;
+  const std::string place = fmt::format("The city lies from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.", box.low.x,
+                                        box.low.y, box.high.x, box.high.y, city.crs_name, option_of_place(options));
+  const std::size_t beyond = run.beyond_grid + run.outside_of_region;
+  if (run.no_data > 0)
+    throw NoAnswer(fmt::format("{}: {} inside buildings or without ground{}. Choose other places, or --on-surface.", nothing,
+                               run.no_data, beyond > 0 ? fmt::format(", {} beyond the city", beyond) : ""));
+  if (beyond > 0) throw NoAnswer(fmt::format("{}: none of {} lies in the city. {}", nothing, beyond, place));
+  throw NoAnswer(fmt::format("{}: there is nothing of what was asked for. {}", nothing, place));
+}
+
+std::optional<std::string> note_of_ignored_crowns(const Package& package, const SvfOptions& options) {
+  const Quantities& further = options.evaluation.further;
+  if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.shadow_patches) return std::nullopt;
+  const std::uint64_t crowns = inventory_of(package).crowns.all();
+  if (crowns == 0) return std::nullopt;
+  return fmt::format(
+      "The city has {} crowns of trees, and what was asked for looks through them: --quantity svf_total counts them.",
+      with_commas(crowns));
+}
 
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {
   WrittenRun written;
@@ -224,6 +258,7 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
   written.summary = evaluate_raster(package, plan, options.placing, options.evaluation, take, run);
   written.output_bytes = files.output_bytes();
   if (!options.writes()) return written;
+  require_answers(written.summary, options, package.description());
   written.write_s = seconds_of([&] {
     written.files = files.commit();
     histogram.write(options);
@@ -245,6 +280,7 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   written.output_bytes = bytes_of_table(*options.format, columns, named.attributes.names().size() + (named.has_normals() ? 2 : 0),
                                         static_cast<double>(named.ids.size()));
   if (!options.writes()) return written;
+  require_answers(written.summary, options, package.description());
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
   RunHistogram histogram(options);
@@ -294,6 +330,7 @@ WrittenRun write_surfaces(const Package& package, const SvfOptions& options, con
   };
   const SurfaceMeans means = evaluate_surfaces(package, options.surfaces, options.evaluation, take, run);
   WrittenRun written{means.summary};
+  require_answers(written.summary, options, package.description());
   written.write_s = seconds_of([&] {
     written.files = writer->commit(means.surfaces, means.buildings);
     histogram.write(options);

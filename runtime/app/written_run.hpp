@@ -31,12 +31,24 @@ struct WrittenRun {
   std::optional<PeriodLight> light = {};          ///< what is known of it, but for its intervals, if any is asked for
 };
 
-/// The three kinds of run: each evaluates and writes its files. They throw what the library throws, and PointsError.
+/// No receiver has an answer: nothing is written.
+class NoAnswer : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// The three kinds of run: each evaluates and writes its files. They throw what the library throws, PointsError and NoAnswer.
 [[nodiscard]] WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run);
 [[nodiscard]] WrittenRun write_points(const Package& package, const SvfOptions& options, RunSettings run);
 [[nodiscard]] WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run);
 /// The sky above --at, as a picture. Throws InputError where there is no answer.
 [[nodiscard]] WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run);
+
+/// Throws NoAnswer where no receiver has an answer: says where the receivers are, and where the city is.
+void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city);
+
+/// What to tell of crowns that nothing which was asked for knows of.
+[[nodiscard]] std::optional<std::string> note_of_ignored_crowns(const Package& package, const SvfOptions& options);
 
 /// Calls `work`, and returns its seconds.
 template <class Work>

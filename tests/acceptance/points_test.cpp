@@ -97,8 +97,10 @@ TEST_F(PackedTown, TheHigherTheMoreSky) {
 
 TEST_F(PackedTown, InsideABuildingThereIsNoAnswer) {
   const Point2d inside = p_projected(small_town().front().centre);
-  folder.must("farlod-svf a.farlod -o o.csv --summary s.json --at " + text_of(inside));
+  folder.write("p.csv", "x,y\n" + text_of(inside) + "\n" + text_of(p_projected({-60.0, 0.0})) + "\n");
+  folder.must("farlod-svf a.farlod -o o.csv --summary s.json --points p.csv");
   EXPECT_EQ(table("o.csv").text(0, "svf"), "");
+  EXPECT_NE(table("o.csv").text(1, "svf"), "");
   EXPECT_EQ(folder.json_of("s.json").at("nodata"), 1);
 }
 

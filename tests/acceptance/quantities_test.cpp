@@ -243,8 +243,7 @@ TEST_F(PackedTown, AMaskLeavesTheReceiversWithinIt) {
 
 TEST_F(PackedTown, AMaskLeavesThePointsAndSurfacesWithinIt) {
   write_mask(folder);
-  folder.write("p.csv", "id,x,y,note\nout," + text_of(town_middle + Point2d{100.0, 0.0}) + ",a\nin," +
-                            text_of(town_middle + Point2d{-100.0, 0.0}) + ",b\n");
+  folder.write("p.csv", "id,x,y,note\nout," + text_of(p_projected({60.0, 0.0})) + ",a\nin," + text_of(middle_crossing) + ",b\n");
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points p.csv --mask mask.geojson");
   EXPECT_THAT(outcome.out, HasSubstr("1 point lies outside of the mask or box"));
   EXPECT_EQ(table("o.csv").size(), 1U);

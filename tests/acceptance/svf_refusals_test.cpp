@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(PackageReader, SvfRefuses,
                                                   {"lost.farlod is not a package", "no such folder", "farlod-pack"}),
                                          unusable("OtherFolder", "no_package -o o.csv --at 1,2",
                                                   {"no_package is not a finished package", "manifest.json"}),
-                                         unusable("File", "town.geojson -o o.csv --at 1,2", {"town.geojson is not a package"})),
+                                         unusable("File", "town.geojson -o o.csv --at 1,2", {"town.geojson is a file"})),
                          name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -172,14 +172,26 @@ INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
                          name_of_refused);
 #endif
 
-TEST(SvfAnswersFromOutside, ABoxBesideTheCityIsAllNoData) {
+/// Without an answer nothing is written, neither the output nor what is kept of a run for another.
+void expect_no_answer(const std::string& asked, const std::vector<std::string>& said) {
   const WorkFolder folder;
   add_packed_town(folder, "one_block", {{"block", {}, 20.0, 10.0}});
-  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 5 --bbox 0,0,50,50 --summary s.json");
-  EXPECT_EQ(outcome.exit_code, exit_done);
-  EXPECT_THAT(outcome.out, testing::HasSubstr("No receiver has an answer"));
-  EXPECT_EQ(folder.json_of("s.json").at("nodata"), 100);
-  EXPECT_TRUE(folder.json_of("s.json").at("svf").at("mean").is_null());
+  expect_refusal(folder.run("farlod-svf a.farlod " + asked), exit_unusable_input, said);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("o.asc")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("o.csv")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("o.asc.unfinished")));
+}
+
+TEST(SvfWithoutAnAnswer, OfABoxBesideTheCitySaysWhereTheCityIs) {
+  expect_no_answer("-o o.asc --grid 5 --bbox 0,0,50,50", {"none of 100", "The city lies from", "check --bbox"});
+}
+
+TEST(SvfWithoutAnAnswer, OfRoofsBesideTheCityIsRefused) {
+  expect_no_answer("-o o.csv --surfaces roofs --bbox 0,0,50,50", {"none of ", "The city lies from"});
+}
+
+TEST(SvfWithoutAnAnswer, OfAPointInABuildingIsRefused) {
+  expect_no_answer("-o o.csv --at 500000,5500000", {"1 inside buildings", "--on-surface"});
 }
 
 }  // namespace
