@@ -215,16 +215,16 @@ void add_notes_of_kit(const Package& package, const SvfOptions& options, std::ve
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
 
-void require_answers(const EvaluationSummary& run, const SvfOptions& options, const PackageDescription& city) {
-  if (run.receivers > 0) return;
+void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city) {
+  if (summary.receivers > 0) return;
   constexpr const char* nothing = "No receiver has an answer, and nothing was written";
   const Box2d& box = city.outline_projected;
   const std::string place = fmt::format("The city lies from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.", box.low.x,
                                         box.low.y, box.high.x, box.high.y, city.crs_name, option_of_place(options));
-  const std::size_t beyond = run.beyond_grid + run.outside_of_region;
-  if (run.no_data > 0)
+  const std::size_t beyond = summary.beyond_grid + summary.outside_of_region;
+  if (summary.no_data > 0)
     throw NoAnswer(fmt::format("{}: {} inside buildings or without ground{}. Choose other places, or --on-surface.", nothing,
-                               run.no_data, beyond > 0 ? fmt::format(", {} beyond the city", beyond) : ""));
+                               summary.no_data, beyond > 0 ? fmt::format(", {} beyond the city", beyond) : ""));
   if (beyond > 0) throw NoAnswer(fmt::format("{}: none of {} lies in the city. {}", nothing, beyond, place));
   throw NoAnswer(fmt::format("{}: there is nothing of what was asked for. {}", nothing, place));
 }
