@@ -32,7 +32,9 @@ constexpr double unknown_lux = std::numeric_limits<double>::quiet_NaN();
 /// each member of their positions of the sun, of which an interval has `sun_count`.
 struct LightColumns {
   const LightColumn &direct_normal_w_m2, &diffuse_w_m2, &direct_normal_lux, &diffuse_lux;  ///< lx are NaN where nobody knows them
-  const LightColumn &hours, &extraterrestrial_w_m2, &month, &sun_count;
+  const LightColumn &hours, &extraterrestrial_w_m2, &month;
+  const LightColumn& begin_s;  ///< on the clock of the period, since 1970
+  const LightColumn& sun_count;
   const LightColumn &sun_azimuth_deg, &sun_elevation_deg, &sun_hours;
 };
 
@@ -44,7 +46,7 @@ void require_one_length(const LightColumns& of) {
     suns += count;
   }
   for (const LightColumn* column : {&of.direct_normal_w_m2, &of.diffuse_w_m2, &of.direct_normal_lux, &of.diffuse_lux,
-                                    &of.extraterrestrial_w_m2, &of.month, &of.sun_count})
+                                    &of.extraterrestrial_w_m2, &of.month, &of.begin_s, &of.sun_count})
     if (column->size() != of.hours.size())
       throw InvalidArgument("the columns of light are not of one length: give one number of each for each interval");
   for (const LightColumn* column : {&of.sun_azimuth_deg, &of.sun_elevation_deg, &of.sun_hours})
@@ -53,6 +55,13 @@ void require_one_length(const LightColumns& of) {
 }
 
 std::optional<double> if_known(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
+
+/// Within some thousand years.
+std::chrono::local_seconds begin_of(double seconds) {
+  constexpr double farthest_s = 1e11;
+  if (!(std::abs(seconds) < farthest_s)) throw InvalidArgument("an interval begins at no time: give datetime64 for each");
+  return std::chrono::local_seconds(std::chrono::seconds(std::llround(seconds)));
+}
 
 std::vector<LightInterval> light_intervals(const LightColumns& of) {
   require_one_length(of);
@@ -71,28 +80,35 @@ std::vector<LightInterval> light_intervals(const LightColumns& of) {
     intervals[k].diffuse_lux = if_known(of.diffuse_lux[k]);
     intervals[k].extraterrestrial_w_m2 = of.extraterrestrial_w_m2[k];
     intervals[k].month = static_cast<unsigned>(of.month[k]);
+    intervals[k].begin = begin_of(of.begin_s[k]);
   }
   return intervals;
 }
 
 void set_light(Quantities& quantities, const LightColumn& direct_normal_w_m2, const LightColumn& diffuse_w_m2,
                const LightColumn& direct_normal_lux, const LightColumn& diffuse_lux, const LightColumn& hours,
-               const LightColumn& extraterrestrial_w_m2, const LightColumn& month, const LightColumn& sun_count,
-               const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg, const LightColumn& sun_hours,
-               const std::string& sky_model, double ground_albedo, double facade_albedo, bool by_month) {
+               const LightColumn& extraterrestrial_w_m2, const LightColumn& month, const LightColumn& begin_s,
+               const LightColumn& sun_count, const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg,
+               const LightColumn& sun_hours, const std::string& sky_model, double ground_albedo, double facade_albedo,
+               bool by_month, bool by_step) {
   quantities.light =
       Light{light_intervals({direct_normal_w_m2, diffuse_w_m2, direct_normal_lux, diffuse_lux, hours, extraterrestrial_w_m2,
-                             month, sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}),
-            meaning_of("sky_model", sky_model, sky_model_words), ground_albedo, facade_albedo, by_month};
+                             month, begin_s, sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}),
+            meaning_of("sky_model", sky_model, sky_model_words),
+            ground_albedo,
+            facade_albedo,
+            by_month,
+            by_step};
 }
 
 double global_horizontal(const LightColumn& direct_normal_w_m2, const LightColumn& diffuse_w_m2,
                          const LightColumn& direct_normal_lux, const LightColumn& diffuse_lux, const LightColumn& hours,
-                         const LightColumn& extraterrestrial_w_m2, const LightColumn& month, const LightColumn& sun_count,
-                         const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg, const LightColumn& sun_hours) {
+                         const LightColumn& extraterrestrial_w_m2, const LightColumn& month, const LightColumn& begin_s,
+                         const LightColumn& sun_count, const LightColumn& sun_azimuth_deg, const LightColumn& sun_elevation_deg,
+                         const LightColumn& sun_hours) {
   return global_horizontal_kwh_m2(
       light_intervals({direct_normal_w_m2, diffuse_w_m2, direct_normal_lux, diffuse_lux, hours, extraterrestrial_w_m2, month,
-                       sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}));
+                       begin_s, sun_count, sun_azimuth_deg, sun_elevation_deg, sun_hours}));
 }
 
 /// A value of each of some rows.
@@ -113,7 +129,8 @@ py::dict columns_of_intervals(std::span<const LightInterval> intervals) {
       "diffuse_lux"_a = numbers_of(intervals, [](const Row& i) { return i.diffuse_lux.value_or(unknown_lux); }),
       "hours"_a = numbers_of(intervals, [](const Row& i) { return i.hours; }),
       "extraterrestrial"_a = numbers_of(intervals, [](const Row& i) { return i.extraterrestrial_w_m2; }),
-      "month"_a = numbers_of(intervals, [](const Row& i) { return i.month; }));
+      "month"_a = numbers_of(intervals, [](const Row& i) { return i.month; }),
+      "begin"_a = numbers_of(intervals, [](const Row& i) { return i.begin.time_since_epoch().count(); }));
 }
 
 py::dict columns_of_suns(std::span<const SunPosition> suns) {
@@ -144,9 +161,10 @@ py::dict light_in_python(const std::string& weather_file, const std::string& per
 
 void add_light_of(py::class_<Quantities>& quantities) {
   quantities.def("set_light", &set_light, py::arg("direct_normal_w_m2"), py::arg("diffuse_w_m2"), py::arg("direct_normal_lux"),
-                 py::arg("diffuse_lux"), py::arg("hours"), py::arg("extraterrestrial_w_m2"), py::arg("month"),
+                 py::arg("diffuse_lux"), py::arg("hours"), py::arg("extraterrestrial_w_m2"), py::arg("month"), py::arg("begin_s"),
                  py::arg("sun_count"), py::arg("sun_azimuth_deg"), py::arg("sun_elevation_deg"), py::arg("sun_hours"),
-                 py::arg("sky_model"), py::arg("ground_albedo"), py::arg("facade_albedo"), py::arg("by_month"));
+                 py::arg("sky_model"), py::arg("ground_albedo"), py::arg("facade_albedo"), py::arg("by_month"),
+                 py::arg("by_step"));
 }
 
 void add_weather(py::module_& module) {
@@ -154,7 +172,7 @@ void add_weather(py::module_& module) {
              py::arg("linke_turbidity"), py::arg("longitude_deg"), py::arg("latitude_deg"));
   module.def("global_horizontal_kwh_m2", &global_horizontal, py::arg("direct_normal_w_m2"), py::arg("diffuse_w_m2"),
              py::arg("direct_normal_lux"), py::arg("diffuse_lux"), py::arg("hours"), py::arg("extraterrestrial_w_m2"),
-             py::arg("month"), py::arg("sun_count"), py::arg("sun_azimuth_deg"), py::arg("sun_elevation_deg"),
+             py::arg("month"), py::arg("begin_s"), py::arg("sun_count"), py::arg("sun_azimuth_deg"), py::arg("sun_elevation_deg"),
              py::arg("sun_hours"));
 }
 

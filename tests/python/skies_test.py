@@ -151,6 +151,32 @@ def test_light_over_a_raster(village: farlod.City) -> None:
     xarray.testing.assert_equal(blocks, grid)
 
 
+def test_shade_of_each_step(village: farlod.City) -> None:
+    light = village.light(period="2026-06-21T10:00/12:00", step=60, by_step=True)
+    grid = village.svf_grid(5.0, light=light, quantities=["shade"])
+    steps = grid.shade_by_step
+    assert steps.dims == ("time", "y", "x") and "shade_20260621T1000" not in grid
+    for hour in (10, 11):
+        alone = village.light(period=f"2026-06-21T{hour}:00/{hour + 1}:00", step=60)
+        expected = village.svf_grid(5.0, light=alone, quantities=["shade"]).shade
+        np.testing.assert_allclose(steps.sel(time=f"2026-06-21T{hour}:00"), expected, atol=1e-6)
+    assert float(abs(steps.diff("time")).max()) > 0.5, "shadows move"
+    blocks = village.svf_grid(5.0, light=light, quantities=["shade"], chunks=16).compute()
+    xarray.testing.assert_equal(blocks, grid)
+
+
+def test_shade_of_each_step_of_arrays(canyon: farlod.City) -> None:
+    begin = np.array(["2026-06-21T12", "2026-06-21T22", "2026-06-22T06"], "datetime64[h]")
+    light = farlod.Light([180.0, 0.0, 90.0], [89.0, -20.0, 1.0], 800.0, 100.0, begin=begin)
+    found = canyon.irradiation([STREET], light, height=HEIGHT, quantities=["shade"])
+    assert found.shade_by_step.dims == ("point", "time")
+    assert found.time.values.astype("datetime64[h]").tolist() == begin[[0, 2]].tolist(), "at night there is no shade"
+    assert float(found.shade_by_step[0, 0]) == 0.0
+    for wrong in ("soon", [np.datetime64("NaT")]):
+        with pytest.raises(farlod.InvalidArgument, match="begin"):
+            farlod.Light(180.0, 30.0, 800.0, 100.0, begin=wrong)
+
+
 def test_light_on_surfaces(village: farlod.City) -> None:
     light = village.light(period="2026-06-21", step=60)
     roofs = village.surfaces("roofs", 4.0, light=light, irradiation_threshold=5.0, geometry=False)

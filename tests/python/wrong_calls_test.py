@@ -110,6 +110,7 @@ CALLS = {
         ((), dict(period="2026-06-21", step=0), "step"),
         ((), dict(period="2026-06-21", linke_turbidity=99.0), "urbidity"),
         ((), dict(period="2026-06-21", by_month="yes"), "by_month"),
+        ((), dict(period="2026-06-21", by_step=1), "by_step"),
         ((), dict(period="2026-06-21", sky_model="blue"), '"isotropic"'),
     ],
     "look_up": [((HERE,), {}, "shape"), (([1.0],), {}, "shape"), (([NAN, 0.0],), {}, "nowhere")] + [

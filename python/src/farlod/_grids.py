@@ -108,19 +108,37 @@ def _coordinates(pixels: Any, crs: Any) -> dict[str, Any]:
     }
 
 
-def _with_months(dataset: xarray.Dataset, *, last: bool = False) -> xarray.Dataset:
-    """``irradiation_01`` … as one variable with the dimension ``month``, which comes first, or last."""
-    names = [str(name) for name in dataset.data_vars if re.fullmatch(r"irradiation_\d\d", str(name))]
-    if not names:
-        return dataset
+def _together(
+    dataset: xarray.Dataset, pattern: str, name: str, dimension: str, coordinates: Any, long_names: tuple[str, str], last: bool
+) -> xarray.Dataset:
+    """The variables whose names are of a pattern as one with a dimension more, which comes first, or last."""
     import xarray
 
+    names = [str(each) for each in dataset.data_vars if re.fullmatch(pattern, str(each))]
+    if not names:
+        return dataset
     variable: Any = xarray.Variable  # it has no types
-    months = variable.concat([dataset[name].variable for name in names], "month")
-    months.attrs = {"long_name": "irradiation of a month", "units": dataset[names[0]].attrs["units"]}
-    coordinate = ("month", [int(name[-2:]) for name in names], {"long_name": "month of the year", "units": "1"})
-    together = months.transpose(..., "month") if last else months
-    return dataset.drop_vars(names).assign(irradiation_by_month=together).assign_coords(month=coordinate)
+    joined = variable.concat([dataset[each].variable for each in names], dimension)
+    joined.attrs = {"long_name": long_names[0], "units": dataset[names[0]].attrs["units"]}
+    values, units = coordinates([each.rsplit("_", 1)[1] for each in names])
+    coordinate = (dimension, values, {"long_name": long_names[1], **units})
+    ordered = joined.transpose(..., dimension) if last else joined
+    return dataset.drop_vars(names).assign({name: ordered}).assign_coords({dimension: coordinate})
+
+
+def _with_parts_of_periods(dataset: xarray.Dataset, *, last: bool = False) -> xarray.Dataset:
+    """``irradiation_01`` … on a dimension ``month``, and ``shade_20260621T1000`` … on a dimension ``time``."""
+
+    def months(words: list[str]) -> Any:
+        return [int(word) for word in words], {"units": "1"}
+
+    def times(words: list[str]) -> Any:
+        return np.array([f"{w[:4]}-{w[4:6]}-{w[6:11]}:{w[11:]}" for w in words], "datetime64[ns]"), {}
+
+    of_months = ("irradiation of a month", "month of the year")
+    of_steps = ("shade of an interval", "beginning of the interval, on the clock of the period")
+    by_month = _together(dataset, r"irradiation_\d\d", "irradiation_by_month", "month", months, of_months, last)
+    return _together(by_month, r"shade_\d{8}T\d{4}", "shade_by_step", "time", times, of_steps, last)
 
 
 def columns_of_points(table: npt.NDArray[np.float32], evaluation: Evaluation, index: Any) -> xarray.Dataset:
@@ -130,7 +148,7 @@ def columns_of_points(table: npt.NDArray[np.float32], evaluation: Evaluation, in
     attributes = _attributes(evaluation)
     names = evaluation.further().columns()
     variables = {name: ("point", table[:, n], attributes[name]) for n, name in enumerate(names)}
-    return _with_months(xarray.Dataset(variables, {"point": _points(index, len(table))}), last=True)
+    return _with_parts_of_periods(xarray.Dataset(variables, {"point": _points(index, len(table))}), last=True)
 
 
 def _dataset(
@@ -144,7 +162,7 @@ def _dataset(
     import xarray
 
     variables = {name: (("y", "x"), band, dict(of_bands.get(name, {}))) for name, band in bands.items()}
-    dataset = _with_months(xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes)))
+    dataset = _with_parts_of_periods(xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes)))
     for name in dataset.data_vars:
         dataset[name].encoding.update(grid_mapping="spatial_ref", _FillValue=np.float32(np.nan))
     if like is None:

@@ -28,6 +28,7 @@ class IrradiationOfCity(OpenCity):
         step: int = 5,
         linke_turbidity: float = 3.0,
         by_month: bool = False,
+        by_step: bool = False,
         sky_model: SkyModel = "perez",
         albedo: tuple[float, float] = (0.2, 0.2),
     ) -> Light:
@@ -47,6 +48,8 @@ class IrradiationOfCity(OpenCity):
             Of a clear sky, 1 to 12.
         by_month : bool, default False
             Whether irradiation has a value for each month, too.
+        by_step : bool, default False
+            Whether ``"shade"`` has a value for each interval with a sun, too: of a clear sky, each ``step``.
         sky_model, albedo : as for :class:`Light`
 
         Returns
@@ -60,7 +63,7 @@ class IrradiationOfCity(OpenCity):
         (24.0, True)
         """
         self._open_package()
-        return light_over(self._place(), weather, period, step, linke_turbidity, by_month, sky_model, albedo)
+        return light_over(self._place(), weather, period, step, linke_turbidity, by_month, by_step, sky_model, albedo)
 
     def _place(self) -> tuple[float, float]:
         """Longitude and latitude of the middle."""
@@ -101,7 +104,8 @@ class IrradiationOfCity(OpenCity):
         -------
         xarray.Dataset on (point)
             ``irradiation``, which is the sum of ``irradiation_direct``, ``irradiation_diffuse`` and ``irradiation_reflected``;
-            where the light tells months, ``irradiation_by_month`` on (point, month).
+            where the light tells months, ``irradiation_by_month`` on (point, month); with ``"shade"``, where it tells steps,
+            ``shade_by_step`` on (point, time).
 
         Examples
         --------

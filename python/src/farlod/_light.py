@@ -17,7 +17,18 @@ from farlod.errors import InvalidArgument
 
 _Columns = dict[str, npt.NDArray[np.float64]]
 
-_OF_INTERVALS = ("direct_normal", "diffuse", "direct_normal_lux", "diffuse_lux", "hours", "extraterrestrial", "month")
+_OF_INTERVALS = ("direct_normal", "diffuse", "direct_normal_lux", "diffuse_lux", "hours", "extraterrestrial", "month", "begin")
+
+
+def _seconds_of(begin: Any) -> npt.NDArray[np.float64]:
+    """Since 1970."""
+    try:
+        times = np.asarray(begin, "datetime64[s]")
+    except (TypeError, ValueError):
+        raise InvalidArgument(f"begin is {begin!r}: give times as datetime64") from None
+    if np.isnat(times).any():
+        raise InvalidArgument("begin has a NaT: give a time for each interval")
+    return times.astype(np.float64)
 
 
 class Light:
@@ -35,6 +46,8 @@ class Light:
         The same two as light to the eye, NaN where it is not known: ``"illuminance"`` needs some.
     month : array_like of int, (m,), optional
         1 to 12; irradiation then has a value for each month, too.
+    begin : array_like of datetime64, (m,), optional
+        When the intervals begin; ``"shade"`` then has a value for each that has a sun, too.
     sky_model : {"perez", "isotropic"}
         How the light of the sky is spread over it.
     albedo : pair of float
@@ -72,6 +85,7 @@ class Light:
         *,
         hours: Any = 1.0,
         month: Any = None,
+        begin: Any = None,
         extraterrestrial: Any = 1361.0,
         direct_normal_lux: Any = np.nan,
         diffuse_lux: Any = np.nan,
@@ -88,6 +102,7 @@ class Light:
             "hours": hours,
             "extraterrestrial": extraterrestrial,
             "month": 1.0 if month is None else month,
+            "begin": 0.0 if begin is None else _seconds_of(begin),
         }
         columns = {name: _arguments.floats(name, values) for name, values in given.items()}
         try:
@@ -98,7 +113,7 @@ class Light:
         # In each interval the sun stands still; a night has none
         up = ~(of_intervals["elevation"] <= 0.0)
         suns = {name: of_intervals[name][up] for name in ("azimuth", "elevation", "hours")}
-        self._set(of_intervals, up.astype(np.float64), suns, month is not None, sky_model, albedo)
+        self._set(of_intervals, up.astype(np.float64), suns, (month is not None, begin is not None), sky_model, albedo)
         self.source, self.remarks = "arrays", []
 
     def _set(
@@ -106,13 +121,13 @@ class Light:
         intervals: _Columns,
         sun_count: npt.NDArray[np.float64],
         suns: _Columns,
-        by_month: bool,
+        by: tuple[bool, bool],
         sky_model: Any,
         albedo: Any,
     ) -> None:
         self._columns = [intervals[name] for name in _OF_INTERVALS]
         self._suns = [sun_count, suns["azimuth"], suns["elevation"], suns["hours"]]
-        self._by_month = by_month
+        self._by_month, self._by_step = by
         self._sky_model = _arguments.word("sky_model", sky_model, get_args(SkyModel))
         self._albedo = tuple(_arguments.floats("albedo", albedo).ravel().tolist())
         if len(self._albedo) != 2:
@@ -122,7 +137,7 @@ class Light:
 
     def _add_to(self, further: Any) -> None:
         """Asks ``Quantities`` for the irradiation of this light. Raises InvalidArgument."""
-        further.set_light(*self._columns, *self._suns, self._sky_model, *self._albedo, self._by_month)
+        further.set_light(*self._columns, *self._suns, self._sky_model, *self._albedo, self._by_month, self._by_step)
         further.ask("irradiation")
 
     def __repr__(self) -> str:
@@ -136,6 +151,7 @@ def light_over(
     step: int,
     linke_turbidity: float,
     by_month: bool,
+    by_step: bool,
     sky_model: SkyModel,
     albedo: tuple[float, float],
 ) -> Light:
@@ -148,6 +164,7 @@ def light_over(
         *place,
     )
     light = Light.__new__(Light)
-    light._set(found["intervals"], found["sun_count"], found["suns"], _arguments.flag("by_month", by_month), sky_model, albedo)
+    by = (_arguments.flag("by_month", by_month), _arguments.flag("by_step", by_step))
+    light._set(found["intervals"], found["sun_count"], found["suns"], by, sky_model, albedo)
     light.hours, light.source, light.remarks = found["hours"], found["source"], found["remarks"]
     return light

@@ -53,6 +53,7 @@ class Quantities:
         hours: _Floats64,
         extraterrestrial_w_m2: _Floats64,
         month: _Floats64,
+        begin_s: _Floats64,
         sun_count: _Floats64,
         sun_azimuth_deg: _Floats64,
         sun_elevation_deg: _Floats64,
@@ -61,6 +62,7 @@ class Quantities:
         ground_albedo: float,
         facade_albedo: float,
         by_month: bool,
+        by_step: bool,
     ) -> None: ...
     def ask(self, word: str) -> None: ...
     def columns(self) -> list[str]: ...
@@ -179,6 +181,7 @@ def global_horizontal_kwh_m2(
     hours: _Floats64,
     extraterrestrial_w_m2: _Floats64,
     month: _Floats64,
+    begin_s: _Floats64,
     sun_count: _Floats64,
     sun_azimuth_deg: _Floats64,
     sun_elevation_deg: _Floats64,
