@@ -119,6 +119,32 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Rows that cannot be read. A few are left out; more are a mistake in the whole table.
+class UnreadRows {
+ public:
+  template <class Read>
+  void count_unless(const Read& read) {
+    try {
+      read();
+    } catch (const PointsError& error) {
+      if (!first_) first_ = error;
+      ++count_;
+    }
+  }
+  /// Throws the first error where more than a tenth of the rows are unread.
+  void tell(std::size_t rows, RequestedPoints& points) const {
+    if (!first_) return;
+    if (10 * count_ > rows) throw PointsError(*first_);
+    points.skipped_features = count_;
+    points.notes.push_back(std::string(first_->what()) + ". Left out of " + std::to_string(rows) +
+                           " rows, since they cannot be read: " + std::to_string(count_) + ".");
+  }
+
+ private:
+  std::optional<PointsError> first_;
+  std::size_t count_ = 0;
+};
+
 bool may_be_lon_lat(const RequestedPoint& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; }
 
 }  // namespace
@@ -134,12 +160,16 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
   if (header) result.attributes = attributes_of_header(records.front(), columns.attributes);
   std::vector<RequestedPoint>& points = result.points;
   points.reserve(records.size());
-  for (const TextRecord& record : std::span(records).subspan(header ? 1 : 0)) {
-    if (header) require_columns_for_all(record, records.front().fields.size(), path);
-    points.push_back(point_of(record, columns, path));
-    result.attributes.add_row(chosen_fields(record, columns.attributes));
-    if (points.back().id.empty()) points.back().id = std::to_string(points.size());
-  }
+  UnreadRows unread;
+  const std::span rows = std::span(records).subspan(header ? 1 : 0);
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    unread.count_unless([&] {
+      if (header) require_columns_for_all(rows[n], records.front().fields.size(), path);
+      points.push_back(point_of(rows[n], columns, path));
+      result.attributes.add_row(chosen_fields(rows[n], columns.attributes));
+      if (points.back().id.empty()) points.back().id = std::to_string(n + 1);
+    });
+  unread.tell(rows.size(), result);
   if (points.empty()) throw PointsError(path.string() + ": the file has a header row but no points; add one in each row");
   if (header && point_columns::are_degrees(records.front().fields[*columns.x]) && std::ranges::all_of(points, may_be_lon_lat))
     result.crs_wkt = "OGC:CRS84";

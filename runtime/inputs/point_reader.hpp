@@ -16,6 +16,7 @@ namespace farlod {
 ///   (2) Without one, the columns are x, y and perhaps z.
 ///   (3) Fields may be quoted (RFC 4180); a byte order mark, CRLF and empty lines do no harm; an empty z is no z.
 ///   (4) All columns but `id`, coordinates and normals are attributes.
+///   (5) Rows that cannot be read are left out and told, up to one in ten.
 /// Throws PointsError.
 [[nodiscard]] RequestedPoints read_points_csv(const std::filesystem::path& path);
 

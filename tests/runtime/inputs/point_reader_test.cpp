@@ -122,6 +122,19 @@ TEST(PointReader, ABadNumberIsNamedWithItsLine) {
   EXPECT_THAT(complaint_about("x;y\n1,5;2\n"), HasSubstr("write it like 1234.5"));
 }
 
+TEST(PointReader, ARowOfManyThatCannotBeReadIsLeftOutAndTold) {
+  std::string stations = "x,y,street\n";
+  for (int n = 1; n <= 20; ++n) stations += (n == 7 ? "unknown" : std::to_string(n)) + ",5,s" + std::to_string(n) + "\n";
+  const RequestedPoints read = table_of(stations);
+  ASSERT_EQ(read.points.size(), 19U);
+  EXPECT_EQ(read.skipped_features, 1U);
+  EXPECT_THAT(read.notes, ElementsAre(AllOf(HasSubstr("points.csv:8"), HasSubstr("\"unknown\""), HasSubstr("of 20 rows"))));
+  EXPECT_EQ(read.points[6].id, "8") << "rows keep their numbers";
+  EXPECT_THAT(row_of(read.attributes, 6), ElementsAre("s8"));
+  // One row in five is no accident
+  EXPECT_THAT(complaint_about("x,y\n1,1\n2,2\nunknown,3\n4,4\n5,5\n"), HasSubstr("points.csv:4"));
+}
+
 TEST(PointReader, AShortRowIsNamed) {
   EXPECT_THAT(complaint_about("x,y\n1\n"), HasSubstr("points.csv:2: the row ends before y"));
 }
