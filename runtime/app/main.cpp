@@ -264,8 +264,7 @@ WrittenRun evaluate(SvfOptions options) {
   const double open_s = seconds_since(start);
   options.evaluation.region = region_of_package(options, package.description());
   const std::optional<PeriodLight> light = place_light(package, options);
-  if (options.format != nullptr)
-    add_for_solweig(*options.format, inventory_of(package).crowns.all() > 0, options.evaluation.further);
+  add_quantities_for(inventory_of(package).crowns.all() > 0, options);
   ProgressLine progress("sky view factors", options.run.verbosity);
   KeptWork kept(options, package.description());
   RunSettings run = run_settings(options, progress);

@@ -134,8 +134,8 @@ std::string words_of_unweighted() { return words_that(is_not_weighted, " and ");
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw) {
   app.add_option("--quantity", raw.quantities,
-                 "What to compute, with commas: svf (always), " + words_with_meanings(false) + "; with the trees of a package " +
-                     words_with_meanings(true))
+                 "What to compute, with commas: svf (always; by default with svf_total where there are trees), " +
+                     words_with_meanings(false) + "; with the trees of a package " + words_with_meanings(true))
       ->group("Quantities");
   app.add_option("--horizons", raw.horizons,
                  "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north")

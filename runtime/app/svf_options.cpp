@@ -316,6 +316,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   o.light = resolved_light(raw.light, requested.further);
   if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))
     throw CLI::ValidationError("--irradiation-threshold", "it goes with --surfaces and --quantity irradiation");
+  o.names_quantities = requested.any() || !raw.quantities.quantities.empty();
   o.evaluation.further = std::move(requested.further);
   o.sunshine = requested.sunshine;
 }
@@ -363,6 +364,17 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.options); }))
     return {std::nullopt, *exit_code};
   return {std::move(line.options), exit_done};
+}
+
+void add_quantities_for(bool has_trees, SvfOptions& o) {
+  if (o.format == nullptr) return;
+  Quantities& further = o.evaluation.further;
+  add_for_solweig(*o.format, has_trees, further);
+  if (!has_trees || o.names_quantities || !o.format->holds_bounds || o.evaluation.max_error ||
+      o.evaluation.weight != SkyWeight::cosine)
+    return;
+  further.svf_total = true;
+  further.svf_total_bounds = o.evaluation.bounds;
 }
 
 void describe_svf_options(const CommandLineVisitor& visit) { visit(svf_program(), CommandLine().app); }

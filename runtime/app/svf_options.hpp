@@ -44,6 +44,7 @@ struct SvfOptions {
   std::filesystem::path mask_file;    ///< of polygons; empty: no mask
   EvaluationSettings evaluation;      ///< but for the sun and its light, which depend on where the package is
   std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
+  bool names_quantities = false;      ///< whether any are asked for: else a city with trees has svf_total, too
   std::optional<LightSource> light;   ///< where the light of a period comes from, if any is asked for
   std::string preview_file, verify_file, histogram_file;
   SkyProjection projection = SkyProjection::equal_area;
@@ -65,6 +66,10 @@ struct ParsedSvfOptions {
   int exit_code = 0;
 };
 [[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
+
+/// Adds what depends on the package: what SOLWEIG reads of trees, and svf_total where nobody said what to compute, there is room
+/// for it, and no error is to be kept, which takes rays for crowns.
+void add_quantities_for(bool has_trees, SvfOptions& options);
 
 /// Hands over the command line, from which the completions are made.
 void describe_svf_options(const CommandLineVisitor& visit);

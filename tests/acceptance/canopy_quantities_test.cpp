@@ -97,6 +97,19 @@ TEST_F(TreeTown, SaysTheTotalAtTheEnd) {
   EXPECT_THAT(run.out, HasSubstr("svf_total: min 0."));
 }
 
+TEST_F(TreeTown, HasTheTotalWhereNobodySaysWhatToCompute) {
+  const auto header_of = [&](const std::string& arguments) {
+    folder.must("farlod-svf b.farlod -o o.csv --at " + under_trees + " " + arguments);
+    return table("o.csv").header();
+  };
+  EXPECT_THAT(header_of(""), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_total", "svfveg"));
+  EXPECT_THAT(header_of("--bounds"), testing::Contains("svf_total_high"));
+  // Else it is told what svf looks through
+  EXPECT_THAT(header_of("--quantity svf"), ElementsAre("id", "x_m", "y_m", "z_m", "svf"));
+  EXPECT_THAT(folder.run("farlod-svf b.farlod -o o.asc --grid 8").out, HasSubstr("20 crowns of trees"));
+  EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.asc --grid 8").out, testing::Not(HasSubstr("crowns")));
+}
+
 TEST_F(TreeTown, HasTheSameSkyViewFactorsAsTheTownWithoutTrees) {
   for (const std::string package : {"a", "b"})
     folder.must("farlod-svf " + package + ".farlod -o " + package + ".tif --grid 8 --quantity directional --horizons 8");
