@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"
@@ -118,7 +119,8 @@ TEST_F(SurfaceModel, WithWallsCoversWholePixels) {
   pack([](Point2d p) { return p.x > 0.0; });
   EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf").empty(), false);
   pack([](Point2d p) { return p.x > 0.0; }, "--surface tin");
-  EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf"), "");
+  expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --on-surface --at " + text_of(town_middle + in_corner)),
+                 exit_unusable_input, {"without ground"});
 }
 
 TEST_F(SurfaceModel, AnswersItsOwnPixelsUnlessOthersAreAskedFor) {
