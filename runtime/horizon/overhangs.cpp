@@ -69,9 +69,10 @@ OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, cons
 }
 
 template <class Visit>
-void OverhangGeometry::visit_triangles(const CellRange& cells, const Visit& visit) const {
+void OverhangGeometry::visit_surfaces(const CellRange& cells, Surfaces which, const Visit& visit) const {
   const Grid& grid = package_.grid();
   const CellRange range = cells.intersection(grid.cells);
+  std::vector<TriangleCorners> triangles;
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
     const TileView tile = package_.tile(range.cell_at(n));
     const Point2d shift_m = grid.corner_of(range.cell_at(n)) - grid.corner_of(cell_);
@@ -79,18 +80,20 @@ void OverhangGeometry::visit_triangles(const CellRange& cells, const Visit& visi
     std::uint32_t first = 0;
     for (const package::SurfaceRun& run : tile.surface_runs) {
       const package::SurfaceRecord& surface = tile.surfaces[run.surface];
-      if (surface.kind() != SurfaceKind::ground)
+      triangles.clear();
+      if (surface.kind() != SurfaceKind::ground && surface.is_grounded() == (which == Surfaces::grounded))
         for (const Triangle& t : tile.mesh.triangles.subspan(first, run.end - first))
-          visit(TriangleCorners{corner(t.a), corner(t.b), corner(t.c)}, !surface.is_grounded());
+          triangles.push_back({corner(t.a), corner(t.b), corner(t.c)});
       first = run.end;
+      if (!triangles.empty()) visit(triangles);
     }
   }
 }
 
 std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::overhanging_in(const CellRange& cells) const {
   std::vector<TriangleCorners> result;
-  visit_triangles(cells, [&](const TriangleCorners& t, bool is_overhanging) {
-    if (is_overhanging) result.push_back(t);
+  visit_surfaces(cells, Surfaces::overhanging, [&](const std::vector<TriangleCorners>& triangles) {
+    result.insert(result.end(), triangles.begin(), triangles.end());
   });
   return result;
 }
@@ -105,13 +108,17 @@ const OverhangFacets& OverhangGeometry::facets() {
 const OverhangFacets& OverhangGeometry::facets_around_recesses() {
   if (around_recesses_) return *around_recesses_;
   around_recesses_ = facets();
-  // Recesses of the cell's receivers reach no farther than beyond its border
+  // Recesses of the cell's receivers reach no farther than so beyond its border; the walls around them may
   constexpr auto reach_m = static_cast<float>(2.0 * most_recess_extent_m);
   const auto cell_m = static_cast<float>(package_.grid().cell_edge_m);
-  visit_triangles({cell_.i - 1, cell_.j - 1, cell_.i + 2, cell_.j + 2}, [&](const TriangleCorners& t, bool is_overhanging) {
+  const auto is_near = [&](const TriangleCorners& t) {
     const auto [low, high] = box_of(t);
-    if (!is_overhanging && std::max(low.x, low.y) <= cell_m + reach_m && std::min(high.x, high.y) >= -reach_m)
-      around_recesses_->add(t);
+    return std::max(low.x, low.y) <= cell_m + reach_m && std::min(high.x, high.y) >= -reach_m;
+  };
+  const CellRange around{cell_.i - 1, cell_.j - 1, cell_.i + 2, cell_.j + 2};
+  visit_surfaces(around, Surfaces::grounded, [&](const std::vector<TriangleCorners>& triangles) {
+    if (std::none_of(triangles.begin(), triangles.end(), is_near)) return;
+    for (const TriangleCorners& t : triangles) around_recesses_->add(t);
   });
   return *around_recesses_;
 }

@@ -53,9 +53,10 @@ class OverhangGeometry {
   [[nodiscard]] PlacedScene scene();
 
  private:
-  /// Calls visit(triangle, is_overhanging) for all of buildings.
+  enum class Surfaces : std::uint8_t { overhanging, grounded };
+  /// Calls visit(triangles) for each of such surfaces of buildings in each cell.
   template <class Visit>
-  void visit_triangles(const CellRange& cells, const Visit& visit) const;
+  void visit_surfaces(const CellRange& cells, Surfaces which, const Visit& visit) const;
   [[nodiscard]] std::vector<TriangleCorners> overhanging_in(const CellRange& cells) const;
 
   const PackageReader& package_;
