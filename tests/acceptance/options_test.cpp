@@ -37,6 +37,12 @@ TEST_P(EachProgram, TellsItsVersion) {
   EXPECT_EQ(outcome.out, std::string(GetParam().name) + " " + software_version + "\n");
 }
 
+TEST(HelpOfSvf, TellsTheReceiversFirst) {
+  const std::string help = WorkFolder().run("farlod-svf --help").out;
+  EXPECT_LT(help.find("\nReceivers:"), help.find("\nOptions:"));
+  EXPECT_EQ(help.find("[Option Group"), std::string::npos);
+}
+
 TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
   const Outcome outcome = folder.run(std::string(GetParam().name) + " --help");
   EXPECT_EQ(outcome.exit_code, exit_done);

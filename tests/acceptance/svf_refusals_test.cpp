@@ -64,6 +64,9 @@ INSTANTIATE_TEST_SUITE_P(
         wrong_usage("NoEnding", "a.farlod -o o --at 1,2", {"\"o\"", all_endings()}),
         wrong_usage("NoReceivers", "a.farlod -o o.csv", {"--grid,--grid-like,--points,--along,--surfaces,--at is required"}),
         wrong_at("TwoKindsOfReceivers", "--surfaces all", {"--grid,--grid-like,--points,--along,--surfaces,--at", "at most 1"}),
+        wrong_at("MisspeltOption", "--heigth 2", {"--heigth: there is no such option; did you mean --height?"}),
+        wrong_at("UnknownOption", "--colour=red", {"--colour: there is no such option. "}),
+        wrong_at("OneArgumentTooMany", "town", {"town: nothing is known of this argument"}),
         wrong_at("NoRays", "--rays 0", {"--rays", "1 to 10000000"}),
         wrong_at("NegativeRays", "--rays -3", {"--rays", "1 to 10000000"}),
         wrong_at("NegativeVerify", "--verify -4", {"--verify", "-4"}),
@@ -180,6 +183,7 @@ void expect_no_answer(const std::string& asked, const std::vector<std::string>& 
   EXPECT_FALSE(std::filesystem::exists(folder.path("o.asc")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("o.csv")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("o.asc.unfinished")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("o.csv.unfinished")));
 }
 
 TEST(SvfWithoutAnAnswer, OfABoxBesideTheCitySaysWhereTheCityIs) {

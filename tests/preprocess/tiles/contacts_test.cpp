@@ -123,6 +123,8 @@ TEST(Contacts, BelowABodyOnAnotherBuildingsRoofNoSkyIsSeen) {
   EXPECT_THAT(test::edges_of(tiles, EdgeRole::underside), IsEmpty());
   EXPECT_THAT(test::edges_of(tiles, EdgeRole::overhang), IsEmpty());
   EXPECT_FALSE(test::is_grounded(tiles, 2)) << "what rests on walls all around may be overhead";
+  for (const Surface& s : tiles.surfaces)
+    if (s.building == 2) EXPECT_EQ(s.grounded, s.kind == SurfaceKind::wall) << s.number << ": its walls hide nothing more";
 }
 
 TEST(Contacts, ABodyThatReachesOverTheRoofsEdgeIsNot) {
