@@ -74,6 +74,25 @@ struct Occluder::Impl {
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.ray.tfar, query.hit.primID};
   }
+
+  Hits nearest(const RayOrigins& origins, const Directions& directions, float begin, std::uint32_t wanted) const {
+    Hits hits;
+    hits.distances.fill(std::numeric_limits<float>::infinity());
+    if (scene == nullptr || wanted == 0) return hits;
+    QueryContext context{embree_context(), nullptr};
+    const RayPacket packet(origins, directions, begin, wanted);
+    RTCRayHit16 query;
+    query.ray = packet.rays;
+    std::fill_n(query.hit.geomID, RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.instID[0], RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
+    ask_nearest(packet.valid.data(), scene.get(), context.embree, query);
+    for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) {
+      if (query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
+      hits.distances[lane] = query.ray.tfar[lane];
+      hits.triangles[lane] = query.hit.primID[lane];
+    }
+    return hits;
+  }
 };
 
 Occluder::Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles, const std::stop_token& stop)
@@ -114,19 +133,11 @@ Occluder::Distances Occluder::distances(const RayOrigins& origins, const Point3f
 
 Occluder::Distances Occluder::distances(const RayOrigins& origins, const Directions& directions, float begin,
                                         std::uint32_t wanted) const {
-  Distances distances;
-  distances.fill(std::numeric_limits<float>::infinity());
-  if (impl_->scene == nullptr || wanted == 0) return distances;
-  QueryContext context{embree_context(), nullptr};
-  const RayPacket packet(origins, directions, begin, wanted);
-  RTCRayHit16 query;
-  query.ray = packet.rays;
-  std::fill_n(query.hit.geomID, RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
-  std::fill_n(query.hit.instID[0], RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
-  ask_nearest(packet.valid.data(), impl_->scene.get(), context.embree, query);
-  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane)
-    if (query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) distances[lane] = query.ray.tfar[lane];
-  return distances;
+  return impl_->nearest(origins, directions, begin, wanted).distances;
+}
+
+Occluder::Hits Occluder::nearest(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const {
+  return impl_->nearest(origins, sixteen_times(direction), begin, wanted);
 }
 
 std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest(ray, nullptr); }

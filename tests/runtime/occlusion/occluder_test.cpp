@@ -160,6 +160,27 @@ TEST_F(RandomScene, PacketsAreAsFarAsSingleRays) {
   EXPECT_GT(met, 500U) << "the scene tests little";
 }
 
+TEST_F(RandomScene, PacketsMeetTheTrianglesOfSingleRays) {
+  const Occluder occluder = triangles(400);
+  std::size_t met = 0;
+  for (std::uint32_t n = 0; n < 500; ++n) {
+    const std::uint32_t wanted = n % 3 == 0 ? all_rays : (n * 2654435761U) >> 16;
+    const Point3f shared = point(1.0F);
+    RayPacket packet;
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, {point(60.0F), shared, 0.0F});
+    const Occluder::Hits hits = occluder.nearest(packet.origins, shared, 0.0F, wanted);
+    EXPECT_EQ(hits.distances, occluder.distances(packet.origins, shared, 0.0F, wanted));
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
+      if (hits.distances[l] == std::numeric_limits<float>::infinity()) continue;
+      const auto hit = occluder.nearest({{packet.origins.x[l], packet.origins.y[l], packet.origins.z[l]}, shared});
+      ASSERT_TRUE(hit);
+      EXPECT_EQ(hits.triangles[l], hit->triangle);
+      ++met;
+    }
+  }
+  EXPECT_GT(met, 500U) << "the scene tests little";
+}
+
 TEST_F(RandomScene, WhatBlocksIsTheNearestOfAll) {
   const Occluder occluder = triangles(400);
   for (int n = 0; n < 5000; ++n) {
