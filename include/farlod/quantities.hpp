@@ -75,6 +75,15 @@ struct Quantities {
   /// What comes from the CIE's overcast sky, as a share of what a level plane in the open gets: column `sky_component`. Of a
   /// wall it is the vertical sky component. Crowns take their share, as of irradiation.
   bool sky_component = false;
+  /// What fills a receiver's view, by class, of all directions before its front, weighted by the cosine: columns `view_sky`,
+  /// `view_ground`, `view_roof`, `view_wall_n`, `view_wall_e`, `view_wall_s`, `view_wall_w` (walls by the quarter of the turn
+  /// that the side seen faces, centred at true north, east, south, west), `view_crown` (of trees, as if nothing passed them),
+  /// `view_other` (undersides). They add up to 1; of a city without trees `view_sky` is `svf`. What is met nowhere below
+  /// the horizontal is ground. Takes `rays` rays against the whole city, with its trees, whatever the engine.
+  bool view_factors = false;
+  /// The parts of the same that lie below the horizontal: columns `view_ground_below`, `view_roof_below`, `view_wall_n_below` …,
+  /// `view_crown_below`, `view_other_below`. Of a receiver that looks straight up, all are 0.
+  bool view_factors_below = false;
   /// What crowns of trees do to the sky, by the rule of `canopy`; a package without trees has none. `svf`, horizons and all else
   /// stay those of buildings and ground.
   ///
@@ -108,6 +117,8 @@ struct Quantities {
   [[nodiscard]] bool any_of_light() const { return irradiation || irradiance || illuminance || shade; }
   /// Those that crowns dim, where a package has some.
   [[nodiscard]] bool any_dimmed_by_crowns() const { return any_of_light() || sky_component; }
+  /// Those that are seen by rays against the whole city, crowns included.
+  [[nodiscard]] bool any_seen_by_rays() const { return shadow_patches || view_factors || view_factors_below; }
   /// Those that know SkyWeight::cosine alone.
   [[nodiscard]] FARLOD_EXPORT bool any_weighted() const;
 };

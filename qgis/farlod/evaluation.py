@@ -27,14 +27,15 @@ from .layer_files import save_source
 from .staging import Staging
 
 QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "shadow_patches",
-              "irradiation", "irradiance", "illuminance", "shade", "sky_component", "svf_total", "svfaveg", "directional_vegetation",
-              "shares"]
+              "irradiation", "irradiance", "illuminance", "shade", "sky_component", "view_factors", "view_factors_below",
+              "svf_total", "svfaveg", "directional_vegetation", "shares"]
 QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
     "near and far geometry hide; horizon: its elevations; horizon_distance: and how far away it is; sky_patches: share seen of "
     "each patch of the sky; sunlit: hours of sunshine, which need a day or a year; shadow_patches: what hides each of the 153 of "
     "UMEP, as bits; irradiation, in kWh/m², irradiance, in W/m², illuminance, in lx, and shade: those of a period; "
-    "sky_component: light of an overcast sky; with the trees of a package svf_total (and "
+    "sky_component: light of an overcast sky; view_factors: what is seen of sky, ground, roofs, walls by the azimuth that they "
+    "face, and crowns; view_factors_below: what of it lies below the horizontal; with the trees of a package svf_total (and "
     "svfveg), svfaveg, directional_vegetation: both of the halves of the sky as UMEP has them; and the shares of sky, "
     "vegetation and building."
 )

@@ -231,7 +231,7 @@ void require_answers(const EvaluationSummary& summary, const SvfOptions& options
 
 std::optional<std::string> note_of_ignored_crowns(const Package& package, const SvfOptions& options) {
   const Quantities& further = options.evaluation.further;
-  if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.shadow_patches) return std::nullopt;
+  if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.any_seen_by_rays()) return std::nullopt;
   const std::uint64_t crowns = inventory_of(package).crowns.all();
   if (crowns == 0) return std::nullopt;
   return fmt::format(

@@ -142,6 +142,8 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
       size_(columns_of(quantities).size()),
       crowns_(range_of_crowns(quantities)),
       shadow_patches_(range_of(Quantity::shadow_patches, quantities)),
+      views_(range_of(Quantity::view_factors, quantities)),
+      views_below_(range_of(Quantity::view_factors_below, quantities)),
       azimuths_(sampling_for(quantities, azimuths, manifest)),
       turns_(turns_of(azimuths_, manifest)),
       halves_(azimuths_, manifest) {
@@ -234,6 +236,12 @@ void FurtherQuantities::add_distances(const ProfiledPacket&, QuantityColumns& co
 /// Profiles do not tell them: their places are left for store_shadow_patches.
 void FurtherQuantities::add_shadow_patches(const ProfiledPacket&, QuantityColumns& columns) const {
   columns.skip(shadow_patches_.count);
+}
+
+/// Profiles do not tell them: their places are left for store_view_factors, as those of the next.
+void FurtherQuantities::add_views(const ProfiledPacket&, QuantityColumns& columns) const { columns.skip(views_.count); }
+void FurtherQuantities::add_views_below(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(views_below_.count);
 }
 
 void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {

@@ -90,8 +90,10 @@ class FurtherQuantities {
   [[nodiscard]] ProfileRows profile_rows() const {
     return quantities_.svf_solid ? ProfileRows::sky_and_solid_sky : ProfileRows::sky;
   }
-  /// Whether anything is made of profiles: canopies and shadow patches alone may be traced without them.
-  [[nodiscard]] bool needs_profiles() const { return size_ > crowns_.count + shadow_patches_.count; }
+  /// Whether anything is made of profiles: canopies, shadow patches and views alone may be traced without them.
+  [[nodiscard]] bool needs_profiles() const {
+    return size_ > crowns_.count + shadow_patches_.count + views_.count + views_below_.count;
+  }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
   /// Whether something is made of light, which crowns dim.
   [[nodiscard]] bool needs_dimmed_sky() const { return needs_light() || quantities_.shade; }
@@ -104,6 +106,9 @@ class FurtherQuantities {
   [[nodiscard]] const ColumnRange& canopy_columns() const { return crowns_; }
   /// Where the shadow patches are, which rays find: evaluate() leaves their places out.
   [[nodiscard]] const ColumnRange& shadow_columns() const { return shadow_patches_; }
+  /// Where the views are, which rays find, and those below the horizontal: evaluate() leaves their places out.
+  [[nodiscard]] const ColumnRange& view_columns() const { return views_; }
+  [[nodiscard]] const ColumnRange& view_below_columns() const { return views_below_; }
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
@@ -125,6 +130,8 @@ class FurtherQuantities {
   void add_illuminance(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_shade(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_sky_component(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_views(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_views_below(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
  private:
   void divide_into_patches();
@@ -181,7 +188,7 @@ class FurtherQuantities {
 
   Quantities quantities_;
   std::size_t size_;
-  ColumnRange crowns_, shadow_patches_;
+  ColumnRange crowns_, shadow_patches_, views_, views_below_;
   AzimuthSampling azimuths_;
   std::vector<double> turns_;  ///< of each azimuth: clockwise from true north, as a share of the turn
   std::vector<std::size_t> azimuth_of_horizon_;

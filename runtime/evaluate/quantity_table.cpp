@@ -9,8 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "evaluate/canopy_answers.hpp"
+#include "evaluate/crown_columns.hpp"
 #include "evaluate/further_quantities.hpp"
+#include "evaluate/view_factors.hpp"
 #include "farlod/shadow_patches.hpp"
 #include "radiation/light_table.hpp"
 
@@ -25,15 +26,12 @@ constexpr auto is_flagged = [](const Quantities& q) { return q.*Flag; };
 template <bool Quantities::*Flag>
 constexpr auto set_flag = [](Quantities& q) { q.*Flag = true; };
 
-constexpr std::array<std::pair<const char*, const char*>, 4> halves{
-    {{"N", "northern"}, {"E", "eastern"}, {"S", "southern"}, {"W", "western"}}};
-
 void describe_solid(const Quantities&, Columns& columns) {
   columns.push_back({"svf_solid", "1", "share of the solid angle of the sky that the receiver sees"});
 }
 
 void describe_directional(const Quantities&, Columns& columns) {
-  for (const auto& [letter, half] : halves)
+  for (const auto& [letter, half] : words_of_halves)
     columns.push_back(
         {std::string("svf") + letter, "1", std::string("sky view factor of the ") + half + " half of the sky, twice its share"});
 }
@@ -132,62 +130,6 @@ void describe_sky_component(const Quantities&, Columns& columns) {
       {"sky_component", "1", "light of the overcast sky of the CIE, as a share of that on a level plane in the open"});
 }
 
-void describe_total(const Quantities& q, Columns& columns) {
-  columns.push_back({"svf_total", "1", "sky view factor with what passes the crowns of trees and comes past them"});
-  if (q.svf_total_bounds) {
-    columns.push_back({"svf_total_low", "1", "lower bound of svf_total"});
-    columns.push_back({"svf_total_high", "1", "upper bound of svf_total"});
-  }
-  columns.push_back({"svfveg", "1", "1 - the sky behind crowns, weighted as in svf"});
-}
-
-/// Both are sampled: crowns hide no more than the sky that there is.
-float sky_behind(float svf, const CanopyAnswer& answer) { return std::clamp(answer.loss.sky, 0.0F, svf); }
-
-void add_total(const Quantities& q, float svf, const CanopyAnswer& answer, ValuesOfReceiver& values) {
-  values.add(answer.svf_total.estimate);
-  if (q.svf_total_bounds) {
-    values.add(answer.svf_total.low);
-    values.add(answer.svf_total.high);
-  }
-  values.add(1.0F - sky_behind(svf, answer));
-}
-
-void describe_svfaveg(const Quantities&, Columns& columns) {
-  columns.push_back({"svfaveg", "1", "1 - the view of solid things that crowns hide, weighted as in svf"});
-}
-
-void add_svfaveg(const Quantities&, float, const CanopyAnswer& answer, ValuesOfReceiver& values) {
-  values.add(1.0F - answer.loss.building);
-}
-
-void describe_directional_vegetation(const Quantities&, Columns& columns) {
-  for (const std::string of : {"veg", "aveg"})
-    for (const auto& [letter, half] : halves)
-      columns.push_back({"svf" + (letter + of), "1", "svf" + of + " of the " + half + " half of the sky"});
-}
-
-void add_directional_vegetation(const Quantities&, float svf, const CanopyAnswer& answer, ValuesOfReceiver& values) {
-  // What the answer knows better than the azimuths is not known by halves: each keeps its share of it
-  const float share = answer.loss.sky > 0.0F ? sky_behind(svf, answer) / answer.loss.sky : 1.0F;
-  for (const float half : answer.loss.sky_of_half) values.add(1.0F - share * half);
-  for (const float half : answer.loss.building_of_half) values.add(1.0F - half);
-}
-
-void describe_shares(const Quantities&, Columns& columns) {
-  columns.push_back({"share_sky", "1", "share of the view that is sky"});
-  columns.push_back({"share_vegetation", "1", "share of the view that is crowns of trees"});
-  columns.push_back({"share_building", "1", "share of the view that is neither sky nor crowns of trees"});
-}
-
-void add_shares(const Quantities&, float svf, const CanopyAnswer& answer, ValuesOfReceiver& values) {
-  const float behind = sky_behind(svf, answer), sky = svf - behind;
-  const float vegetation = behind + std::clamp(answer.loss.building, 0.0F, 1.0F - svf);
-  values.add(sky);
-  values.add(vegetation);
-  values.add(1.0F - sky - vegetation);
-}
-
 constexpr std::size_t usual_horizons = 36;
 
 void ask_for_horizons(Quantities& q) {
@@ -283,6 +225,18 @@ constexpr auto table = std::to_array<QuantityRow>({
      .ask = set_flag<&Quantities::sky_component>,
      .describe = describe_sky_component,
      .add = &FurtherQuantities::add_sky_component},
+    {.quantity = Quantity::view_factors,
+     .word = {.word = "view_factors", .meaning = "what is seen: sky, ground, roofs, walls by azimuth, crowns"},
+     .is_asked = is_flagged<&Quantities::view_factors>,
+     .ask = set_flag<&Quantities::view_factors>,
+     .describe = describe_views,
+     .add = &FurtherQuantities::add_views},
+    {.quantity = Quantity::view_factors_below,
+     .word = {.word = "view_factors_below", .meaning = "what of it lies below the horizontal"},
+     .is_asked = is_flagged<&Quantities::view_factors_below>,
+     .ask = set_flag<&Quantities::view_factors_below>,
+     .describe = describe_views_below,
+     .add = &FurtherQuantities::add_views_below},
     {.quantity = Quantity::svf_total,
      .word = {.word = "svf_total", .meaning = "and svfveg", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::svf_total>,

@@ -27,6 +27,8 @@ enum class Quantity : std::uint8_t {
   illuminance,
   shade,
   sky_component,
+  view_factors,
+  view_factors_below,
   svf_total,
   svfaveg,
   directional_vegetation,

@@ -44,16 +44,23 @@ SkyDirections::SkyDirections(SkyWeight weight, std::size_t ray_count, const Grid
   for (const Point3d& d : local_) facing_up_.push_back(rotation.grid_from_city(d));
 }
 
-std::vector<Point3d> SkyDirections::facing(const Point3d& normal) const {
+std::vector<Point3d> SkyDirections::around(const Point3d& normal) const {
   // The receiver's own axes: one along the contour line, one up the slope
   const Point3d contour = normalized(cross(Point3d{0.0, 0.0, 1.0}, normal));
-  if (contour == Point3d{}) return normal.z > 0.0 ? facing_up_ : std::vector<Point3d>{};
-  const Point3d upslope = cross(normal, contour);
-  std::vector<Point3d> result;
-  for (const Point3d& d : local_) {
-    const Point3d direction = d.x * contour + d.y * upslope + d.z * normal;
-    if (direction.z > 0.0) result.push_back(direction);
+  std::vector<Point3d> result = facing_up_;
+  if (contour == Point3d{}) {
+    if (normal.z < 0.0)
+      for (Point3d& d : result) d.z = -d.z;
+    return result;
   }
+  const Point3d upslope = cross(normal, contour);
+  std::ranges::transform(local_, result.begin(), [&](const Point3d& d) { return d.x * contour + d.y * upslope + d.z * normal; });
+  return result;
+}
+
+std::vector<Point3d> SkyDirections::facing(const Point3d& normal) const {
+  std::vector<Point3d> result = around(normal);
+  std::erase_if(result, [](const Point3d& d) { return d.z <= 0.0; });
   return result;
 }
 

@@ -35,7 +35,9 @@ class SkyDirections {
   [[nodiscard]] std::span<const Point3d> facing_up() const { return facing_up_; }
   /// The directions of a receiver with this normal (length 1, grid frame): those of its rays that point above the horizon.
   [[nodiscard]] std::vector<Point3d> facing(const Point3d& normal) const;
-  /// Those of a receiver.
+  /// All rays around this normal, above the horizon or below it.
+  [[nodiscard]] std::vector<Point3d> around(const Point3d& normal) const;
+  /// Those of a receiver that point above the horizon.
   [[nodiscard]] std::vector<Point3d> facing_as(const Receiver& receiver) const {
     const Point3f& n = receiver.normal;
     return n == Point3f{0.0F, 0.0F, 1.0F} ? facing_up_ : facing(normalized(Point3d{n.x, n.y, n.z}));

@@ -11,6 +11,7 @@
 #include "evaluate/error_budget.hpp"
 #include "evaluate/sky_method.hpp"
 #include "evaluate/traced_patches.hpp"
+#include "evaluate/view_factors.hpp"
 #include "package/pixel_heights.hpp"
 #include "scene/canopy_around.hpp"
 #include "scene/ray_scenes.hpp"
@@ -148,6 +149,7 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers
   method_for(cell.cell).evaluate(cell, answers);
   if (settings().further.horizon_distances) find_horizon_distances(cell, answers);
   if (settings().further.shadow_patches) find_shadow_patches(cell, answers);
+  if (settings().further.view_factors || settings().further.view_factors_below) find_view_factors(cell, answers);
 }
 
 void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const {
@@ -172,6 +174,16 @@ void SkyEvaluator::find_shadow_patches(const CellReceivers& cell, const SkyAnswe
   const auto scene_ready = EvaluationCounter::Clock::now();
   store_shadow_patches(cell, scene, patch_directions(package().manifest()), evaluation_->further.shadow_columns(),
                        further_columns(), answers, evaluation_->stop);
+  evaluation_->counter->add_times(start, scene_ready);
+}
+
+void SkyEvaluator::find_view_factors(const CellReceivers& cell, const SkyAnswers& answers) const {
+  const auto start = EvaluationCounter::Clock::now();
+  const WholeCityOnDemand& city = *evaluation_->city;
+  SeenScene scene{city.seen_from(cell.cell), city.surfaces()};
+  if (package().has_crowns()) scene.crowns = &city.crowns(settings().further.canopy);
+  const auto scene_ready = EvaluationCounter::Clock::now();
+  store_view_factors(cell, scene, evaluation_->directions, evaluation_->further, answers, evaluation_->stop);
   evaluation_->counter->add_times(start, scene_ready);
 }
 

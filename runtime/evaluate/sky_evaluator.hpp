@@ -98,6 +98,7 @@ class SkyEvaluator {
   /// The horizons of the receivers are answered already.
   void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_shadow_patches(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void find_view_factors(const CellReceivers& cell, const SkyAnswers& answers) const;
 
   std::unique_ptr<const Evaluation> evaluation_;
   std::array<std::unique_ptr<const SkyMethod>, evaluation_method_count> methods_;

@@ -26,6 +26,7 @@ constexpr double thread_bytes = 12 * mib;     // scenes of cells, and what the a
 constexpr double receiver_bytes = 128;        // a receiver on its way, with its answers
 constexpr double triangle_bytes = 224;        // of the whole city's scene: the triangle, its corners, Embree's tree
 constexpr double exact_triangle_bytes = 100;  // of the TriangleIndex: its corners, and a sixth of a node
+constexpr double seen_triangle_bytes = 24;    // of SeenSurfaces: a number, and the sides of a surface
 
 constexpr double crown_bytes = 160;        // of the scene of all crowns, beside the file: the crown, and Embree's tree
 constexpr double canopy_bytes = 16 * mib;  // crowns around a cell, those far away merged
@@ -46,12 +47,13 @@ constexpr double ray_azimuth_bytes = 180 + 11 * 64;            // RayEngine, wit
 
 bool traces_whole_city(const ResolvedSettings& settings) {
   return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.allowed_error.has_value() ||
-         settings.sky.further.horizon_distances || settings.sky.further.shadow_patches;
+         settings.sky.further.horizon_distances || settings.sky.further.any_seen_by_rays();
 }
 
 bool uses_crowns(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const Quantities& further = settings.sky.further;
-  return manifest.canopy.has_value() && (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.shadow_patches);
+  return manifest.canopy.has_value() &&
+         (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.any_seen_by_rays());
 }
 
 double bytes_of_canopies(const package::Manifest& manifest, const ResolvedSettings& settings) {
@@ -104,7 +106,9 @@ double bytes_of_canopy_pixels(const package::Manifest& manifest, const ResolvedS
 double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const std::size_t rays = settings.verify > 0 ? std::max(verify_rays, settings.sky.rays) : 0;
   const double of_crowns = uses_crowns(manifest, settings) ? (sizeof(Crown) + crown_bytes) * crowns_of(manifest) : 0.0;
-  const double of_triangle = triangle_bytes + (settings.bounds || settings.sky.allowed_error ? exact_triangle_bytes : 0.0);
+  const Quantities& further = settings.sky.further;
+  const double of_triangle = triangle_bytes + (settings.bounds || settings.sky.allowed_error ? exact_triangle_bytes : 0.0) +
+                             (further.view_factors || further.view_factors_below ? seen_triangle_bytes : 0.0);
   return static_cast<double>(manifest.triangles) * of_triangle + bytes_of_directions(rays, settings.threads) + of_crowns;
 }
 
@@ -168,8 +172,8 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   if (!needs.whole_city && !traces_whole_city(settings)) return bytes;
   const double with_city = bytes + bytes_of_whole_city(manifest, settings);
   require_below_limit(with_city, settings.run, "tracing the whole city",
-                      "leave out what needs it (the engine exact, a verification, a largest error, distances of horizons, points "
-                      "beyond the grid, cells without a far map)");
+                      "leave out what needs it (the engine exact, a verification, a largest error, distances of horizons, view "
+                      "factors, shadow patches, points beyond the grid, cells without a far map)");
   return with_city;
 }
 

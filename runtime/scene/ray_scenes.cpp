@@ -56,6 +56,11 @@ const WholeCity& WholeCityOnDemand::city() const {
   return *city_;
 }
 
+const SeenSurfaces& WholeCityOnDemand::surfaces() const {
+  std::call_once(has_surfaces_, [&] { surfaces_.emplace(package_, stop_); });
+  return *surfaces_;
+}
+
 const TriangleIndex& WholeCityOnDemand::triangles() const {
   std::call_once(has_triangles_, [&] { triangles_.emplace(triangles_of_whole_city(package_, stop_)); });
   return *triangles_;

@@ -12,6 +12,7 @@
 #include "occlusion/occluder.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "package/package_reader.hpp"
+#include "scene/seen_surfaces.hpp"
 #include "scene/triangle_index.hpp"
 
 namespace farlod {
@@ -48,6 +49,8 @@ class WholeCityOnDemand {
   [[nodiscard]] const WholeCity& city() const;
   /// The scene for receivers of a cell.
   [[nodiscard]] PlacedScene seen_from(Cell cell) const { return {city().occluder(), city().scene_from_cell_m(cell)}; }
+  /// What its triangles are.
+  [[nodiscard]] const SeenSurfaces& surfaces() const;
   /// The triangles of the same scene in the same frame, to the last bit of the package.
   [[nodiscard]] const TriangleIndex& triangles() const;
   /// A place of the frame of `cell` in their frame.
@@ -58,8 +61,9 @@ class WholeCityOnDemand {
  private:
   const PackageReader& package_;
   std::stop_token stop_;
-  mutable std::once_flag has_city_, has_triangles_, has_crowns_;
+  mutable std::once_flag has_city_, has_surfaces_, has_triangles_, has_crowns_;
   mutable std::optional<WholeCity> city_;
+  mutable std::optional<SeenSurfaces> surfaces_;
   mutable std::optional<TriangleIndex> triangles_;
   mutable std::optional<CrownOccluder> crowns_;
 };

@@ -137,7 +137,9 @@ class PointsOfCity(OpenCity):
             What to compute besides. ``"svf_solid"``: the share of solid angle; ``"directional"``: the four halves of the sky as
             UMEP has them (``svfN``, ``svfE``, ``svfS``, ``svfW``); ``"hidden"``: the shares that near and far geometry hide
             (``hidden_near``, ``hidden_far``); ``"shadow_patches"``: what hides each of the 153 patches of SOLWEIG, as bits
-            (``shadow_1``, …); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
+            (``shadow_1``, …); ``"view_factors"``: what is seen, by class (``view_sky``, ``view_ground``, ``view_roof``,
+            ``view_wall_n``, …, ``view_crown``, ``view_other``), and ``"view_factors_below"``: what of it lies below the
+            horizontal (``view_ground_below``, …); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
             ``"directional_vegetation"``: both of the halves of the sky (``svfNveg``, …, ``svfNaveg``, …), and ``"shares"``: of
             sky, vegetation and building.
         verify : int, default 0

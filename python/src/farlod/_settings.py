@@ -28,6 +28,8 @@ Quantity = Literal[
     "illuminance",
     "shade",
     "sky_component",
+    "view_factors",
+    "view_factors_below",
     "svf_total",
     "svfaveg",
     "directional_vegetation",
