@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -147,6 +148,18 @@ struct MeshPart {
 /// The geometry of the cells of a rectangle that exist: the ground first, then building by building, each cell by cell. Throws
 /// InvalidArgument where the rectangle has more than 10,000 cells or no width, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT std::vector<MeshPart> geometry_of(const Package& package, const CellRectangle& cells);
+
+/// A polygon in space, whose rings do not repeat their first corner: the shell runs counter-clockwise about its normal, holes run
+/// the other way.
+struct SurfacePolygon {
+  std::vector<Point3d> shell;
+  std::vector<std::vector<Point3d>> holes;
+};
+
+/// What the triangles of one surface cover, of however many cells they come, as outlines: a polygon for each piece that is not
+/// connected with the others. Corners within a millimetre of each other are one, and what is not a millimetre wide is left out.
+/// Where triangles lie on each other, or not in a plane, or are all so narrow, each is a polygon.
+[[nodiscard]] FARLOD_EXPORT std::vector<SurfacePolygon> polygons_of(std::span<const std::array<Point3d, 3>> triangles);
 
 /// A far edge that a far map stores by itself.
 struct FarEdge {

@@ -35,7 +35,7 @@ class SkyViewFactorsOfSurfaces(EvaluationAlgorithm):
     HELP = (
         "How much of the sky the façades and roofs of all buildings see, each along its own normal. A façade in the open has "
         "0.5, since the lower half of what it faces is ground.\n\n"
-        "Three layers: the receivers, which are points spread over the surfaces; a table with averages of each surface; a table "
+        "Three layers: the receivers, which are points spread over the surfaces; the surfaces, as polygons with averages; a table "
         "with averages of each building. Join the tables to footprints by “building”. Parts that a neighbour covers have NULL, "
         "and do not count."
     )

@@ -89,7 +89,18 @@ std::unique_ptr<SurfaceTablesWriter> make_layers(const TableFrame& frame, const 
   return std::make_unique<SurfaceTablesInLayers>(frame, path, (gdal_files().*make_writer)(frame, path));
 }
 
+template <auto make_writer>
+std::unique_ptr<FeatureWriter> make_feature_writer(const TableFrame& frame, const std::filesystem::path& path) {
+  return (gdal_files().*make_writer)(frame, path);
+}
+
 /// For a format of one layer a file.
+template <auto make_writer>
+std::unique_ptr<SurfaceTablesWriter> make_files(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<SurfaceTablesInFiles>(frame, path, &make_feature_writer<make_writer>);
+}
+
+/// For a format of one layer of points a file.
 template <auto make_writer>
 std::unique_ptr<SurfaceTablesWriter> make_layer_beside_csv(const TableFrame& frame, const std::filesystem::path& path) {
   return std::make_unique<SurfaceTablesBesideCsv>(frame, path, [frame, path](SurfaceSpool& receivers) {
@@ -161,14 +172,14 @@ constexpr OutputFormat formats[] = {
      .endings = {".geojson", ""},
      .holds_bounds = true,
      .write_points = write_points_by<&GdalFiles::geojson>,
-     .surface_tables_writer = make_layer_beside_csv<&GdalFiles::geojson>,
+     .surface_tables_writer = make_files<&GdalFiles::geojson>,
      .bytes_of_row = 140.0,
      .bytes_of_value = 30.0},
     {.name = "FlatGeobuf",
      .endings = {".fgb", ""},
      .holds_bounds = true,
      .write_points = write_points_by<&GdalFiles::flatgeobuf>,
-     .surface_tables_writer = make_layer_beside_csv<&GdalFiles::flatgeobuf>,
+     .surface_tables_writer = make_files<&GdalFiles::flatgeobuf>,
      .bytes_of_row = 175.0,
      .bytes_of_value = 7.9},
 #endif

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <ostream>
@@ -19,6 +18,7 @@
 #include "results/atomic_file.hpp"
 #include "results/picture/picture.hpp"
 #include "results/spool_file.hpp"
+#include "results/table/blocks_of_city.hpp"
 #include "results/table/sky_table_csv.hpp"
 #include "results/value_text.hpp"
 
@@ -196,13 +196,6 @@ class MeanOfSurface {
 
   std::vector<const SurfaceMean*> ordered_;
 };
-
-void for_each_block(const PackageInventory& package, const std::function<void(const CellRectangle&)>& work) {
-  const CellRectangle& all = package.cells;
-  for (std::int32_t j = all.j_begin; j < all.j_end; j += package.block_edge)
-    for (std::int32_t i = all.i_begin; i < all.i_end; i += package.block_edge)
-      work({i, j, std::min(i + package.block_edge, all.i_end), std::min(j + package.block_edge, all.j_end)});
-}
 
 }  // namespace
 

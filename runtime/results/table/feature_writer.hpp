@@ -7,7 +7,9 @@
 #include <memory>
 #include <string_view>
 #include <variant>
+#include <vector>
 
+#include "farlod/inspection.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {
@@ -20,11 +22,14 @@ struct FeatureField {
   FieldType type = FieldType::text;
 };
 
+/// What the rows of a layer are.
+enum class LayerGeometry : std::uint8_t { none, points, polygons };
+
 /// A table whose rows may have a place, as GIS programs know them.
 struct FeatureLayer {
   std::string name, description;
   std::vector<FeatureField> fields;
-  bool has_places = true;  ///< whether rows are points, or have no geometry
+  LayerGeometry geometry = LayerGeometry::points;
 };
 
 /// A value of the type of its field; the first alternative where the row has none.
@@ -32,9 +37,10 @@ using FieldValue = std::variant<std::monostate, std::string_view, std::int64_t, 
 
 /// A row of a layer.
 struct FeatureRow {
-  Point2d p_projected;
-  std::optional<double> height_m;
+  Point2d p_projected;             ///< of a point
+  std::optional<double> height_m;  ///< likewise
   std::vector<FieldValue> values;  ///< as many as FeatureLayer::fields
+  std::vector<SurfacePolygon> polygons = {};
 };
 
 /// Writes layers to files of a vector format. All functions throw OutputError.
@@ -53,7 +59,8 @@ class FeatureWriter {
 };
 
 /// Writes layers by GDAL, in the CRS of the frame:
-///   (1) Places are points with three coordinates, rounded to the millimetre. z is NaN where the height is not known.
+///   (1) Coordinates are rounded to the millimetre, and places have three. z of a point is NaN where the height is not known.
+///       Polygons are those of a MultiPolygon Z.
 ///   (2) Fields are text, 64-bit integers or doubles, and null where a feature has no value.
 ///   (3) The same features give the same bytes. What a file calls its date is 1 January 1970, or OGR_CURRENT_DATE where the
 ///       environment has it.
@@ -63,6 +70,7 @@ class FeatureWriter {
 /// Writes one layer as GeoJSON (RFC 7946):
 ///   (1) Coordinates are longitude and latitude in WGS 84 with eight digits after the point, which is a millimetre. The third is
 ///       the height as the package has it; there is none where it is not known. Without a CRS, coordinates stay as they are.
+///       Polygons are those of a MultiPolygon; without geometry, it is null.
 ///   (2) Properties are all fields of the layer; null where a feature has no value.
 ///   (3) The frame's provenance is a member of the collection, which readers that do not know it skip.
 [[nodiscard]] std::unique_ptr<FeatureWriter> geojson_writer(const TableFrame& frame, const std::filesystem::path& path);

@@ -93,7 +93,7 @@ class CfPointWriter final : public FeatureWriter {
   CfPointWriter(const TableFrame& frame, const std::filesystem::path& path) : frame_(frame), file_(path) {}
 
   void begin(const FeatureLayer& layer) override {
-    FARLOD_EXPECTS(columns_.empty() && layer.has_places);
+    FARLOD_EXPECTS(columns_.empty() && layer.geometry == LayerGeometry::points);
     file_.describe(layer.description, frame_.provenance);
     file_.attribute(NetcdfFile::whole_file, "featureType", "point");
     const int point = file_.dimension("point", NetcdfFile::unlimited);

@@ -63,7 +63,30 @@ OGRFieldType gdal_type_of(FieldType type) {
   return type == FieldType::text ? OFTString : type == FieldType::whole ? OFTInteger64 : OFTReal;
 }
 
+OGRwkbGeometryType gdal_type_of(LayerGeometry geometry) {
+  if (geometry == LayerGeometry::none) return wkbNone;
+  return geometry == LayerGeometry::points ? wkbPoint25D : wkbMultiPolygon25D;
+}
+
 double millimetres(double value) { return std::round(value * 1e3) / 1e3; }
+
+std::unique_ptr<OGRLinearRing> ring_of(const std::vector<Point3d>& corners) {
+  auto ring = std::make_unique<OGRLinearRing>();
+  for (const Point3d& p : corners) ring->addPoint(millimetres(p.x), millimetres(p.y), millimetres(p.z));
+  ring->closeRings();
+  return ring;
+}
+
+std::unique_ptr<OGRMultiPolygon> multipolygon_of(const std::vector<SurfacePolygon>& polygons) {
+  auto all = std::make_unique<OGRMultiPolygon>();
+  for (const SurfacePolygon& p : polygons) {
+    auto polygon = std::make_unique<OGRPolygon>();
+    polygon->addRingDirectly(ring_of(p.shell).release());
+    for (const std::vector<Point3d>& hole : p.holes) polygon->addRingDirectly(ring_of(hole).release());
+    all->addGeometryDirectly(polygon.release());
+  }
+  return all;
+}
 
 void set_value(OGRFeature& feature, int field, const FieldValue& value) {
   if (const auto* text = std::get_if<std::string_view>(&value))
@@ -97,9 +120,9 @@ class GdalFeatureWriter final : public FeatureWriter {
     const GdalErrors errors;
     feature_.reset();
     OGRSpatialReference crs;
-    const bool has_crs = layer.has_places && !frame_.crs_wkt.empty();
+    const bool has_crs = layer.geometry != LayerGeometry::none && !frame_.crs_wkt.empty();
     if (has_crs && !read_crs(crs, frame_.crs_wkt, frame_.epsg)) throw_if_any(errors);
-    layer_ = dataset_->CreateLayer(layer.name.c_str(), has_crs ? &crs : nullptr, layer.has_places ? wkbPoint25D : wkbNone,
+    layer_ = dataset_->CreateLayer(layer.name.c_str(), has_crs ? &crs : nullptr, gdal_type_of(layer.geometry),
                                    options_of(format_, layer).List());
     throw_if_any(errors);
     for (const FeatureField& field : layer.fields) {
@@ -109,7 +132,8 @@ class GdalFeatureWriter final : public FeatureWriter {
     throw_if_any(errors);
     feature_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
     point_ = nullptr;
-    if (!layer.has_places) return;
+    has_polygons_ = layer.geometry == LayerGeometry::polygons;
+    if (layer.geometry != LayerGeometry::points) return;
     feature_->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
     point_ = feature_->GetGeometryRef()->toPoint();
   }
@@ -124,6 +148,7 @@ class GdalFeatureWriter final : public FeatureWriter {
       point_->setY(millimetres(row.p_projected.y));
       point_->setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
     }
+    if (has_polygons_) feature.SetGeometryDirectly(multipolygon_of(row.polygons).release());
     if (layer_->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
       throw OutputError(file_.destination(), "a row was refused");
     throw_if_any(errors);
@@ -154,6 +179,7 @@ class GdalFeatureWriter final : public FeatureWriter {
   OGRLayer* layer_ = nullptr;
   Feature feature_;  // one for all rows: making a new one takes a third of the time of writing it
   OGRPoint* point_ = nullptr;
+  bool has_polygons_ = false;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
@@ -56,6 +57,18 @@ class GeojsonWriter final : public FeatureWriter {
   void commit() override;
 
  private:
+  /// A feature whose places are not transformed yet, since many are at a time.
+  struct Waiting {
+    std::string properties;
+    std::vector<std::vector<std::size_t>> polygons = {};  ///< of each ring, how many of the places are its corners
+  };
+
+  void add_place(Point2d p, std::optional<double> height_m);
+  [[nodiscard]] std::size_t add_ring(const std::vector<Point3d>& corners);
+  void append_place(std::string& json, std::size_t place) const;
+  void append_ring(std::string& json, std::size_t first, std::size_t corners) const;
+  /// `place` is its first one, and is moved behind its last one.
+  void append_geometry(std::string& json, const Waiting& feature, std::size_t& place) const;
   void write_waiting();
 
   Provenance provenance_;
@@ -63,10 +76,10 @@ class GeojsonWriter final : public FeatureWriter {
   std::ofstream stream_;
   std::optional<Reprojection> to_wgs84_;
   std::vector<std::string> keys_;  ///< of the fields, as they are written
-  // Features that wait: many places are transformed at a time
+  LayerGeometry geometry_ = LayerGeometry::points;
   std::vector<Point2d> places_;
   std::vector<std::optional<double>> heights_;
-  std::vector<std::string> properties_;
+  std::vector<Waiting> waiting_;
   std::size_t written_ = 0;
 };
 
@@ -80,6 +93,7 @@ GeojsonWriter::GeojsonWriter(const TableFrame& frame, const std::filesystem::pat
 
 void GeojsonWriter::begin(const FeatureLayer& layer) {
   FARLOD_EXPECTS(keys_.empty());
+  geometry_ = layer.geometry;
   for (const FeatureField& field : layer.fields) {
     std::string key = keys_.empty() ? "" : ", ";
     append_json_text(key, field.name);
@@ -88,42 +102,97 @@ void GeojsonWriter::begin(const FeatureLayer& layer) {
   stream_ << head_of(layer, provenance_);
 }
 
+void GeojsonWriter::add_place(Point2d p, std::optional<double> height_m) {
+  places_.push_back(p);
+  heights_.push_back(height_m);
+}
+
+std::size_t GeojsonWriter::add_ring(const std::vector<Point3d>& corners) {
+  for (const Point3d& p : corners) add_place({p.x, p.y}, p.z);
+  return corners.size();
+}
+
 void GeojsonWriter::add(const FeatureRow& row) {
   FARLOD_EXPECTS(row.values.size() == keys_.size());
-  std::string json;
+  Waiting feature;
   for (std::size_t n = 0; n < keys_.size(); ++n) {
-    json += keys_[n];
-    append_value(json, row.values[n]);
+    feature.properties += keys_[n];
+    append_value(feature.properties, row.values[n]);
   }
-  places_.push_back(row.p_projected);
-  heights_.push_back(row.height_m);
-  properties_.push_back(std::move(json));
-  if (places_.size() == places_at_once) write_waiting();
+  if (geometry_ == LayerGeometry::points) add_place(row.p_projected, row.height_m);
+  for (const SurfacePolygon& p : row.polygons) {
+    std::vector<std::size_t>& rings = feature.polygons.emplace_back();
+    rings.push_back(add_ring(p.shell));
+    for (const std::vector<Point3d>& hole : p.holes) rings.push_back(add_ring(hole));
+  }
+  waiting_.push_back(std::move(feature));
+  if (places_.size() >= places_at_once) write_waiting();
+}
+
+void GeojsonWriter::append_place(std::string& json, std::size_t place) const {
+  json += "[";
+  append_degrees(json, places_[place].x);
+  json += ", ";
+  append_degrees(json, places_[place].y);
+  if (heights_[place]) {
+    json += ", ";
+    append_millimetres(json, *heights_[place]);
+  }
+  json += "]";
+}
+
+void GeojsonWriter::append_ring(std::string& json, std::size_t first, std::size_t corners) const {
+  json += "[";
+  for (std::size_t n = 0; n < corners; ++n) {
+    append_place(json, first + n);
+    json += ", ";
+  }
+  append_place(json, first);
+  json += "]";
+}
+
+void GeojsonWriter::append_geometry(std::string& json, const Waiting& feature, std::size_t& place) const {
+  if (geometry_ == LayerGeometry::points) {
+    json += R"({"type": "Point", "coordinates": )";
+    append_place(json, place++);
+    json += "}";
+    return;
+  }
+  if (feature.polygons.empty()) {
+    json += "null";
+    return;
+  }
+  json += R"({"type": "MultiPolygon", "coordinates": [)";
+  for (std::size_t n = 0; n < feature.polygons.size(); ++n) {
+    json += n == 0 ? "[" : ", [";
+    for (std::size_t r = 0; r < feature.polygons[n].size(); ++r) {
+      if (r > 0) json += ", ";
+      append_ring(json, place, feature.polygons[n][r]);
+      place += feature.polygons[n][r];
+    }
+    json += "]";
+  }
+  json += "]}";
 }
 
 void GeojsonWriter::write_waiting() {
   if (to_wgs84_ && to_wgs84_->apply(places_))
     throw OutputError(file_.destination(), "a point lies where the CRS of the package has no longitude and latitude");
   std::string json;
-  for (std::size_t n = 0; n < places_.size(); ++n) {
+  std::size_t place = 0;
+  for (const Waiting& feature : waiting_) {
     json += written_++ == 0 ? "\n{\"type\": \"Feature\", \"properties\": {" : ",\n{\"type\": \"Feature\", \"properties\": {";
-    json += properties_[n];
-    json += "}, \"geometry\": {\"type\": \"Point\", \"coordinates\": [";
-    append_degrees(json, places_[n].x);
-    json += ", ";
-    append_degrees(json, places_[n].y);
-    if (heights_[n]) {
-      json += ", ";
-      append_millimetres(json, *heights_[n]);
-    }
-    json += "]}}";
+    json += feature.properties;
+    json += "}, \"geometry\": ";
+    append_geometry(json, feature, place);
+    json += "}";
   }
   errno = 0;
   stream_ << json;
   if (!stream_) refuse(file_);
   places_.clear();
   heights_.clear();
-  properties_.clear();
+  waiting_.clear();
 }
 
 void GeojsonWriter::commit() {

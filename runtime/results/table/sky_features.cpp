@@ -76,6 +76,12 @@ FieldValue attribute_value(std::string_view text, FieldType type) {
   return text;
 }
 
+/// None without a package.
+std::unique_ptr<SurfaceShapes> shapes_of(const TableFrame& frame, std::span<const BuildingMean> buildings,
+                                         const std::filesystem::path& path) {
+  return frame.package == nullptr ? nullptr : std::make_unique<SurfaceShapes>(*frame.package, buildings, path);
+}
+
 FeatureLayer layer_of_points(const PointRows& rows, const TableFrame& frame) {
   FeatureLayer layer{"points", "Receivers and their sky view factors", {{"id", FieldType::text}}};
   for (std::size_t k = 0; rows.attributes != nullptr && k < rows.attributes->names().size(); ++k)
@@ -145,11 +151,12 @@ void write_receivers_as_features(SurfaceSpool& receivers, const TableFrame& fram
   });
 }
 
-void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFrame& frame, FeatureWriter& writer) {
+void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFrame& frame, SurfaceShapes* shapes,
+                                FeatureWriter& writer) {
   FeatureLayer layer{"surfaces",
                      "Surfaces, with averages of their receivers",
                      {{"building", FieldType::text}, {"surface", FieldType::whole}, {"kind", FieldType::text}},
-                     false};
+                     shapes == nullptr ? LayerGeometry::none : LayerGeometry::polygons};
   const std::string& quantity = frame.columns.quantity;
   add_fields(layer, FieldType::real, {"azimuth_deg", "tilt_deg", "area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
@@ -165,12 +172,14 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
          millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata), share(r.svf_mean),
          share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
     for (const AreaColumn& column : area_columns_of(r, frame.columns)) feature.values.push_back(number(column));
+    if (shapes != nullptr) feature.polygons = shapes->of(r.building, r.surface);
     writer.add(feature);
   }
 }
 
 void write_buildings_as_features(std::span<const BuildingMean> rows, const TableFrame& frame, FeatureWriter& writer) {
-  FeatureLayer layer{"buildings", "Buildings, with averages of their receivers", {{"building", FieldType::text}}, false};
+  FeatureLayer layer{
+      "buildings", "Buildings, with averages of their receivers", {{"building", FieldType::text}}, LayerGeometry::none};
   const std::string& quantity = frame.columns.quantity;
   add_fields(layer, FieldType::real, {"roof_area_m2", "wall_area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
@@ -191,11 +200,33 @@ void write_buildings_as_features(std::span<const BuildingMean> rows, const Table
 
 std::vector<std::filesystem::path> SurfaceTablesInLayers::commit(std::span<const SurfaceMean> surfaces,
                                                                  std::span<const BuildingMean> buildings) {
+  const std::unique_ptr<SurfaceShapes> shapes = shapes_of(frame_, buildings, path_);
   write_receivers_as_features(receivers_, frame_, *writer_);
-  write_surfaces_as_features(surfaces, frame_, *writer_);
+  write_surfaces_as_features(surfaces, frame_, shapes.get(), *writer_);
   write_buildings_as_features(buildings, frame_, *writer_);
   writer_->commit();
   return {path_};
+}
+
+std::vector<std::filesystem::path> SurfaceTablesInFiles::commit(std::span<const SurfaceMean> surfaces,
+                                                                std::span<const BuildingMean> buildings) {
+  const std::filesystem::path csv = std::filesystem::path(path_).replace_extension(".csv");
+  const std::unique_ptr<SurfaceShapes> shapes = shapes_of(frame_, buildings, path_);
+  std::vector<std::filesystem::path> files{path_, table_beside(shapes ? path_ : csv, ".surfaces"),
+                                           table_beside(csv, ".buildings")};
+  if (shapes) {
+    const std::unique_ptr<FeatureWriter> writer = make_writer_(frame_, files[1]);
+    write_surfaces_as_features(surfaces, frame_, shapes.get(), *writer);
+    writer->commit();
+  } else {
+    write_surfaces_csv(surfaces, frame_.columns, files[1]);
+  }
+  write_buildings_csv(buildings, frame_.columns, files[2]);
+  // The file of -o appears last
+  const std::unique_ptr<FeatureWriter> writer = make_writer_(frame_, path_);
+  write_receivers_as_features(receivers_, frame_, *writer);
+  writer->commit();
+  return files;
 }
 
 std::vector<std::filesystem::path> SurfaceTablesBesideCsv::commit(std::span<const SurfaceMean> surfaces,

@@ -11,6 +11,7 @@
 
 #include "results/spool_file.hpp"
 #include "results/table/feature_writer.hpp"
+#include "results/table/surface_shapes.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {
@@ -24,8 +25,9 @@ void write_points_as_features(const PointRows& rows, const TableFrame& frame, Fe
 /// The layer `receivers`, of all rows in the spool file.
 void write_receivers_as_features(SurfaceSpool& receivers, const TableFrame& frame, FeatureWriter& writer);
 
-/// The layers `surfaces` and `buildings`, which have no places.
-void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFrame& frame, FeatureWriter& writer);
+/// The layers `surfaces`, of polygons where there are shapes of them, and `buildings`, without geometry.
+void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFrame& frame, SurfaceShapes* shapes,
+                                FeatureWriter& writer);
 void write_buildings_as_features(std::span<const BuildingMean> rows, const TableFrame& frame, FeatureWriter& writer);
 
 /// What a column of the user's points holds: whole numbers, numbers, or text, where one value is neither. Empty fields decide
@@ -49,7 +51,26 @@ class SurfaceTablesInLayers : public SurfaceTablesWriter {
   SurfaceSpool receivers_;
 };
 
-/// For formats of one layer a file: the receivers in it, the other two tables, which have no places, as OUT.surfaces.csv and
+/// For formats of one layer a file: the receivers in it, the surfaces as OUT.surfaces.fgb, or as CSV where no package has shapes
+/// of them, and the buildings, which have no places, as OUT.buildings.csv.
+class SurfaceTablesInFiles : public SurfaceTablesWriter {
+ public:
+  using MakeWriter = std::unique_ptr<FeatureWriter> (*)(const TableFrame& frame, const std::filesystem::path& path);
+
+  SurfaceTablesInFiles(const TableFrame& frame, const std::filesystem::path& path, MakeWriter make_writer)
+      : frame_(frame), path_(path), make_writer_(make_writer), receivers_(path) {}
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.add(part, rows); }
+  [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
+                                                          std::span<const BuildingMean> buildings) override;
+
+ private:
+  TableFrame frame_;
+  std::filesystem::path path_;
+  MakeWriter make_writer_;
+  SurfaceSpool receivers_;
+};
+
+/// For formats of points: the receivers in it, the other two tables as OUT.surfaces.csv and
 /// OUT.buildings.csv.
 class SurfaceTablesBesideCsv : public SurfaceTablesWriter {
  public:
