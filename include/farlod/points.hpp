@@ -33,6 +33,8 @@ struct PointAnswerSpans {
   std::span<double> height_m = {};  ///< where the receivers stand, above sea level; may be empty
   /// Wanted with EvaluationSettings::further, and only then: a value for each of columns_of, point by point.
   std::span<float> further = {};
+  /// How high the receivers stand above the ground; NaN also where there is none. May be empty.
+  std::span<double> above_ground_m = {};
 };
 
 struct PointAnswers {
@@ -40,6 +42,7 @@ struct PointAnswers {
   std::vector<double> height_m;
   std::vector<float> further;  ///< a value for each of columns_of(EvaluationSettings::further), point by point
   EvaluationSummary summary;
+  std::vector<double> above_ground_m = {};  ///< NaN also where there is no ground
 };
 
 /// Evaluates the sky view factors of points, inside the grid or outside of it. The same points give the same answers whatever the

@@ -207,7 +207,8 @@ PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {
                     known(answers.high, n),
                     known_degrees(named.azimuth, n),
                     known_degrees(named.tilt, n),
-                    std::span(answers.further).subspan(n * columns, columns)};
+                    std::span(answers.further).subspan(n * columns, columns),
+                    known(answers.above_ground_m[n])};
   };
   return {named.ids.size(), row, &named.attributes, named.has_normals()};
 }

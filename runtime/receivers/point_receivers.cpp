@@ -38,10 +38,8 @@ Point2d cell_point_within(Point2d p_grid, Cell cell, const Grid& grid) {
 
 /// For a point outside of the grid: the ground is that at the border of the grid. There are no buildings, even where one ends at
 /// the border.
-std::optional<Point3f> stand_outside(const PointLocator& locator, Point2d p_cell, Point2d at_border, HeightAbove above,
-                                     float height_m) {
-  const VerticalProfile profile = locator.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
-  const auto z_m = standing_height_m(profile, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
+std::optional<Point3f> stand_outside(const VerticalProfile& at_border, Point2d p_cell, HeightAbove above, float height_m) {
+  const auto z_m = standing_height_m(at_border, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
   if (!z_m) return std::nullopt;
   return Point3f{static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), *z_m};
 }
@@ -159,7 +157,8 @@ std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Pack
 }
 
 CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<const PlaceOfReceiver> places,
-                           std::span<const std::size_t> chosen, HeightAbove above, float height_m, const std::stop_token& stop) {
+                           std::span<const std::size_t> chosen, HeightAbove above, float height_m, const std::stop_token& stop,
+                           std::span<double> above_ground_m) {
   const Grid& grid = package.grid();
   const Cell existing = nearest_existing(cell, grid.cells);
   const PointLocator locator(package, existing);
@@ -167,15 +166,19 @@ CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<co
   for (const std::size_t n : chosen) {
     throw_if_cancelled(stop);
     const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);
-    const Point2d p_cell = p_grid - grid.corner_of(cell);
+    const Point2d p_cell = p_grid - grid.corner_of(cell), within = cell_point_within(p_grid, existing, grid);
     const auto x = static_cast<float>(p_cell.x), y = static_cast<float>(p_cell.y);
+    const bool is_outside = cell != existing;
+    const VerticalProfile profile =
+        is_outside ? locator.at(static_cast<float>(within.x), static_cast<float>(within.y)) : locator.at(x, y);
     const bool has_height = places[n].height_m.has_value();
     const HeightAbove from = has_height ? HeightAbove::sea_level : above;
     const float height = has_height ? static_cast<float>(*places[n].height_m - package.manifest().height_origin_m) : height_m;
-    const auto standing = cell == existing
-                              ? stand(locator, x, y, from, height)
-                              : stand_outside(locator, {x, y}, cell_point_within(p_grid, existing, grid), from, height);
-    if (standing) result.receivers.push_back({n, *standing, places[n].normal_grid});
+    const auto standing = is_outside ? stand_outside(profile, {x, y}, from, height) : stand(profile, x, y, from, height);
+    if (!standing) continue;
+    result.receivers.push_back({n, *standing, places[n].normal_grid});
+    if (const auto ground_m = profile.ground_m(); ground_m && !above_ground_m.empty())
+      above_ground_m[n] = static_cast<double>(standing->z - *ground_m);
   }
   return result;
 }

@@ -28,10 +28,10 @@ struct PlaceOfReceiver {
                                                                                     std::span<const PlaceOfReceiver> places);
 
 /// The receivers at some of the places, all in one cell; those inside buildings are left out. Throws Cancelled when `stop` is
-/// asked for.
+/// asked for. `above_ground_m` is empty, or as long as `places`: how high they stand above the ground, where there is one.
 [[nodiscard]] CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<const PlaceOfReceiver> places,
                                          std::span<const std::size_t> chosen, HeightAbove above, float height_m,
-                                         const std::stop_token& stop = {});
+                                         const std::stop_token& stop = {}, std::span<double> above_ground_m = {});
 
 /// Distance of a receiver from its surface, so that the surface itself does not block it: a hundred times the rounding of a
 /// coordinate in a scene of 10 km (0.5 mm would do), and a fiftieth of a window's reveal.

@@ -36,6 +36,7 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
     throw InvalidArgument("a normal is an azimuth and a tilt, and one of the two is not given: give both, or neither");
   require_as_long("svf", answers.svf.size(), count);
   if (!answers.height_m.empty()) require_as_long("height_m", answers.height_m.size(), count);
+  if (!answers.above_ground_m.empty()) require_as_long("above_ground_m", answers.above_ground_m.size(), count);
   if (answers.further.size() != further_columns * count)
     throw InvalidArgument("further has " + std::to_string(answers.further.size()) + " elements: give " +
                           std::to_string(further_columns) + " for each of " + std::to_string(count) +
@@ -136,6 +137,7 @@ void fill_with_no_data(const PointAnswerSpans& answers) {
   std::ranges::fill(answers.high, SvfValues::no_data);
   std::ranges::fill(answers.further, SvfValues::no_data);
   std::ranges::fill(answers.height_m, std::numeric_limits<double>::quiet_NaN());
+  std::ranges::fill(answers.above_ground_m, std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Answers are in the order of the cell's receivers, whose indices are those of the points.
@@ -163,7 +165,7 @@ class PointCells final : public CellsOfRun {
   [[nodiscard]] double receivers_about(std::size_t n) const override { return static_cast<double>(cells_[n].second.size()); }
   [[nodiscard]] CellReceivers receivers(std::size_t n) override {
     return receivers_at(package_, cells_[n].first, places_, cells_[n].second, placing_.above,
-                        package_height_m(placing_, package_.manifest()), stop_);
+                        package_height_m(placing_, package_.manifest()), stop_, answers_.above_ground_m);
   }
   void store(std::size_t, const CellReceivers& cell, const SvfValues& values) override {
     store_answers(cell, values, package_.manifest().height_origin_m, answers_);
@@ -212,11 +214,13 @@ PointAnswers evaluate_points(const Package& package, const Points& points, const
   const std::size_t count = points.x_m.size(), bounds = settings.bounds ? count : 0;
   const std::size_t further = count * columns_of(settings.further).size();
   const RunSettings with_answers =
-      with_bytes_of_caller(run, (count + 2 * bounds + further) * sizeof(float) + count * sizeof(double));
+      with_bytes_of_caller(run, (count + 2 * bounds + further) * sizeof(float) + 2 * count * sizeof(double));
   PointAnswers answers{std::vector<float>(count),  std::vector<float>(bounds),  std::vector<float>(bounds),
-                       std::vector<double>(count), std::vector<float>(further), {}};
-  answers.summary = evaluate_points(package, points, placing, settings,
-                                    {answers.svf, answers.low, answers.high, answers.height_m, answers.further}, with_answers);
+                       std::vector<double>(count), std::vector<float>(further), {},
+                       std::vector<double>(count)};
+  answers.summary = evaluate_points(
+      package, points, placing, settings,
+      {answers.svf, answers.low, answers.high, answers.height_m, answers.further, answers.above_ground_m}, with_answers);
   return answers;
 }
 

@@ -49,8 +49,8 @@ const std::string under_trees = text_of(p_projected({-60.0, 4.0}));
 TEST_F(TreeTown, HasColumnsOfItsCrowns) {
   folder.must("farlod-svf b.farlod -o o.csv --quantity svf_total,svfaveg,shares --summary s.json --at " + under_trees);
   const CsvTable row = table("o.csv");
-  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_total", "svfveg", "svfaveg", "share_sky",
-                                        "share_vegetation", "share_building"));
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "svf_total", "svfveg",
+                                        "svfaveg", "share_sky", "share_vegetation", "share_building"));
   const auto at = [&](const char* column) { return row.number(0, column); };
   EXPECT_NEAR(at("svf_total"), at("svf") - (1.0 - at("svfveg")) * 0.97, 3.0 * half_of_last_digit);
   EXPECT_NEAR(at("share_sky"), at("svf") + at("svfveg") - 1.0, 3.0 * half_of_last_digit);
@@ -102,10 +102,10 @@ TEST_F(TreeTown, HasTheTotalWhereNobodySaysWhatToCompute) {
     folder.must("farlod-svf b.farlod -o o.csv --at " + under_trees + " " + arguments);
     return table("o.csv").header();
   };
-  EXPECT_THAT(header_of(""), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_total", "svfveg"));
+  EXPECT_THAT(header_of(""), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "svf_total", "svfveg"));
   EXPECT_THAT(header_of("--bounds"), testing::Contains("svf_total_high"));
   // Else it is told what svf looks through
-  EXPECT_THAT(header_of("--quantity svf"), ElementsAre("id", "x_m", "y_m", "z_m", "svf"));
+  EXPECT_THAT(header_of("--quantity svf"), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf"));
   EXPECT_THAT(folder.run("farlod-svf b.farlod -o o.asc --grid 8").out, HasSubstr("20 crowns of trees"));
   EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.asc --grid 8").out, testing::Not(HasSubstr("crowns")));
 }

@@ -75,10 +75,12 @@ TEST(TwoBlocks, APointNextToThemButOutsideOfTheGridIsExact) {
 TEST_F(PackedTown, AtStandsAboveTheGroundUnlessItHasAHeight) {
   folder.must("farlod-svf a.farlod -o o.csv --at " + text_of(crossing));
   EXPECT_EQ(table("o.csv").number(0, "z_m"), 1.5);
+  EXPECT_EQ(table("o.csv").number(0, "height_above_ground_m"), 1.5);
   folder.must("farlod-svf a.farlod -o o.csv --height 3 --at " + text_of(crossing));
   EXPECT_EQ(table("o.csv").number(0, "z_m"), 3.0);
   folder.must("farlod-svf a.farlod -o o.csv --at " + text_of(Point3d{crossing.x, crossing.y, 12.0}));
   EXPECT_EQ(table("o.csv").number(0, "z_m"), 12.0);
+  EXPECT_EQ(table("o.csv").number(0, "height_above_ground_m"), 12.0);
 }
 
 TEST_F(PackedTown, HeightsOfATableCountFromWhereTheCrsCounts) {
@@ -86,6 +88,9 @@ TEST_F(PackedTown, HeightsOfATableCountFromWhereTheCrsCounts) {
   folder.must("farlod-pack town.geojson -o high.farlod --terrain ground.asc");
   folder.must("farlod-svf high.farlod -o o.csv --at " + text_of(crossing));
   EXPECT_EQ(table("o.csv").number(0, "z_m"), 101.5);
+  EXPECT_EQ(table("o.csv").number(0, "height_above_ground_m"), 1.5);
+  folder.must("farlod-svf high.farlod -o o.csv --at " + text_of(Point3d{crossing.x, crossing.y, 112.0}));
+  EXPECT_EQ(table("o.csv").number(0, "height_above_ground_m"), 12.0);
 }
 
 TEST_F(PackedTown, TheHigherTheMoreSky) {
@@ -100,6 +105,7 @@ TEST_F(PackedTown, InsideABuildingThereIsNoAnswer) {
   folder.write("p.csv", "x,y\n" + text_of(inside) + "\n" + text_of(p_projected({-60.0, 0.0})) + "\n");
   folder.must("farlod-svf a.farlod -o o.csv --summary s.json --points p.csv");
   EXPECT_EQ(table("o.csv").text(0, "svf"), "");
+  EXPECT_EQ(table("o.csv").text(0, "height_above_ground_m"), "");
   EXPECT_NE(table("o.csv").text(1, "svf"), "");
   EXPECT_EQ(folder.json_of("s.json").at("nodata"), 1);
 }
@@ -108,6 +114,7 @@ TEST_F(PackedTown, OnTheSurfaceAReceiverStandsOnTheRoof) {
   const Block tower = tower_of(small_town());
   folder.must("farlod-svf a.farlod -o o.csv --engine exact --on-surface --at " + text_of(p_projected(tower.centre)));
   EXPECT_EQ(table("o.csv").number(0, "z_m"), tower_height_m + 1.5);
+  EXPECT_EQ(table("o.csv").number(0, "height_above_ground_m"), tower_height_m + 1.5);
   EXPECT_EQ(table("o.csv").number(0, "svf"), 1.0);
 }
 
@@ -125,7 +132,7 @@ TEST_F(PackedTown, PointsOfATableAreThoseOfAt) {
   folder.must("farlod-svf a.farlod -o o.csv --points p.csv");
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), 2U);
-  EXPECT_EQ(answers.header(), (std::vector<std::string>{"id", "x_m", "y_m", "z_m", "svf"}));
+  EXPECT_EQ(answers.header(), (std::vector<std::string>{"id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf"}));
   EXPECT_EQ(answers.text(0, "id"), "first");
   EXPECT_EQ(answers.text(1, "id"), "second");
   EXPECT_EQ(answers.number(0, "svf"), svf_at(text_of(crossing)));
@@ -159,7 +166,8 @@ TEST_F(PackedTown, PointsOfAVectorFileAreInItsOwnCrsAndKeepTheirFields) {
   EXPECT_NE(outcome.out.find("The field \"svf\" of the points comes back as \"svf_input\""), std::string::npos) << outcome.out;
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), 2U);
-  EXPECT_EQ(answers.header(), (std::vector<std::string>{"id", "name", "svf_input", "x_m", "y_m", "z_m", "svf"}));
+  EXPECT_EQ(answers.header(),
+            (std::vector<std::string>{"id", "name", "svf_input", "x_m", "y_m", "z_m", "height_above_ground_m", "svf"}));
   EXPECT_EQ(answers.text(0, "name"), "south");
   EXPECT_EQ(answers.text(0, "svf_input"), "0.7");
   EXPECT_EQ(answers.text(1, "svf_input"), "");

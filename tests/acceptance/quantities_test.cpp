@@ -30,9 +30,9 @@ TEST_F(PackedTown, QuantitiesAreColumnsOfATable) {
       "farlod-svf a.farlod -o o.csv --quantity svf,svf_solid,directional,hidden,horizon --horizons 8 --summary s.json --at " +
       text_of(middle_crossing));
   const CsvTable row = table("o.csv");
-  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_solid", "svfN", "svfE", "svfS", "svfW",
-                                        "hidden_near", "hidden_far", "horizon_000", "horizon_045", "horizon_090", "horizon_135",
-                                        "horizon_180", "horizon_225", "horizon_270", "horizon_315"));
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "svf_solid", "svfN", "svfE",
+                                        "svfS", "svfW", "hidden_near", "hidden_far", "horizon_000", "horizon_045", "horizon_090",
+                                        "horizon_135", "horizon_180", "horizon_225", "horizon_270", "horizon_315"));
   EXPECT_NEAR(0.5 * (row.number(0, "svfE") + row.number(0, "svfW")), row.number(0, "svf"), 3.0 * half_of_last_digit);
   EXPECT_NEAR(row.number(0, "hidden_near") + row.number(0, "hidden_far") + row.number(0, "svf"), 1.0, 3.0 * half_of_last_digit);
   EXPECT_EQ(folder.json_of("s.json").at("quantities").size(), 15U);

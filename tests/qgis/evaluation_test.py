@@ -104,7 +104,7 @@ class Points(QgisTest):
             self.assertEqual({**feature["properties"], **before["properties"]}, feature["properties"])
             for place, expected in zip(feature["geometry"]["coordinates"], before["geometry"]["coordinates"]):
                 self.assertAlmostEqual(place, expected, places=9)
-        self.assertEqual(list(found[0]["properties"]), ["name", "code", "count", "empty", "z_m", "svf"])
+        self.assertEqual(list(found[0]["properties"]), ["name", "code", "count", "empty", "z_m", "height_above_ground_m", "svf"])
         self.assertIn('ID["EPSG",4326]', must("ogrinfo", "-so", "-al", WORK / "plain_qgis.gpkg"))
 
     def test_options_arrive(self) -> None:

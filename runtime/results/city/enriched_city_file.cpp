@@ -123,12 +123,11 @@ CityAttributes attributes_of(const BuildingMean& building, const AnswerColumns& 
   CityAttributes attributes;
   add_svf(attributes, names[0], building.svf_roofs);
   add_svf(attributes, names[1], building.svf_walls);
-  const bool has_roofs = building.roof_area_m2 + building.covered_roof_area_m2 > 0.0;
-  const bool has_walls = building.wall_area_m2 + building.covered_wall_area_m2 > 0.0;
-  if (has_roofs) add_area(attributes, names[2], building.roof_area_m2);
-  if (has_walls) add_area(attributes, names[3], building.wall_area_m2);
-  if (has_roofs) add_area(attributes, names[4], building.covered_roof_area_m2);
-  if (has_walls) add_area(attributes, names[5], building.covered_wall_area_m2);
+  const BuildingAreas areas = areas_of(building);
+  if (areas.roofs_m2) add_area(attributes, names[2], *areas.roofs_m2);
+  if (areas.walls_m2) add_area(attributes, names[3], *areas.walls_m2);
+  if (areas.covered_roofs_m2) add_area(attributes, names[4], *areas.covered_roofs_m2);
+  if (areas.covered_walls_m2) add_area(attributes, names[5], *areas.covered_walls_m2);
   add_area_columns(attributes, area_columns_of(building, columns));
   return attributes;
 }

@@ -32,6 +32,19 @@ AreaColumn area_above_of(const std::optional<AreaIrradiation>& irradiation, cons
 
 }  // namespace
 
+BuildingAreas areas_of(const BuildingMean& b) {
+  BuildingAreas areas;
+  if (b.roof_area_m2 + b.covered_roof_area_m2 > 0.0) {
+    areas.roofs_m2 = b.roof_area_m2;
+    areas.covered_roofs_m2 = b.covered_roof_area_m2;
+  }
+  if (b.wall_area_m2 + b.covered_wall_area_m2 > 0.0) {
+    areas.walls_m2 = b.wall_area_m2;
+    areas.covered_walls_m2 = b.covered_wall_area_m2;
+  }
+  return areas;
+}
+
 std::vector<AreaColumn> area_columns_of(const SurfaceMean& surface, const AnswerColumns& columns) {
   std::vector<AreaColumn> list;
   add_means(surface.further_mean, "_mean", columns, list);

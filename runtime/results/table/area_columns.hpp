@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,13 @@ struct AreaColumn {
   double value;
   NumberForm form;
 };
+
+/// The areas of a building; none of roofs (walls) where no roof (wall) has a receiver, as where nobody asked for them.
+struct BuildingAreas {
+  std::optional<double> roofs_m2, walls_m2;                  ///< with an answer
+  std::optional<double> covered_roofs_m2, covered_walls_m2;  ///< without one
+};
+[[nodiscard]] BuildingAreas areas_of(const BuildingMean& building);
 
 /// The columns that follow those of svf, with the values of a surface:
 ///   (1) COLUMN_mean of each further column;

@@ -22,10 +22,11 @@ struct Meaning {
   std::string name, unit, text, standard_name;
 };
 
-const std::array<Meaning, 7>& meanings_of_places() {
-  static const std::array<Meaning, 7> meanings{{{"x_m", "m", "easting", "projection_x_coordinate"},
+const std::array<Meaning, 8>& meanings_of_places() {
+  static const std::array<Meaning, 8> meanings{{{"x_m", "m", "easting", "projection_x_coordinate"},
                                                 {"y_m", "m", "northing", "projection_y_coordinate"},
                                                 {"z_m", "m", "height, as the package has it", ""},
+                                                {"height_above_ground_m", "m", "height above the ground", ""},
                                                 {"azimuth_deg", "degree", "where it faces, clockwise from true north", ""},
                                                 {"tilt_deg", "degree", "0 straight up, 90 of a wall", ""},
                                                 {"area_m2", "m2", "area that the receiver stands for", ""},

@@ -86,7 +86,7 @@ FeatureLayer layer_of_points(const PointRows& rows, const TableFrame& frame) {
   FeatureLayer layer{"points", "Receivers and their sky view factors", {{"id", FieldType::text}}};
   for (std::size_t k = 0; rows.attributes != nullptr && k < rows.attributes->names().size(); ++k)
     layer.fields.push_back({rows.attributes->names()[k], type_of_column(*rows.attributes, k, rows.count)});
-  add_fields(layer, FieldType::real, {"x_m", "y_m", "z_m"});
+  add_fields(layer, FieldType::real, {"x_m", "y_m", "z_m", "height_above_ground_m"});
   if (rows.normals) add_fields(layer, FieldType::real, {"azimuth_deg", "tilt_deg"});
   add_answer_fields(layer, frame.columns);
   return layer;
@@ -118,8 +118,8 @@ void write_points_as_features(const PointRows& rows, const TableFrame& frame, Fe
     feature.values = {std::string_view(row.id)};
     for (std::size_t k = 0; k < attributes; ++k)
       feature.values.push_back(attribute_value(rows.attributes->value(n, k), layer.fields[k + 1].type));
-    feature.values.insert(feature.values.end(),
-                          {millimetres(row.p_projected.x), millimetres(row.p_projected.y), millimetres(row.height_m)});
+    feature.values.insert(feature.values.end(), {millimetres(row.p_projected.x), millimetres(row.p_projected.y),
+                                                 millimetres(row.height_m), millimetres(row.above_ground_m)});
     if (rows.normals) feature.values.insert(feature.values.end(), {millimetres(row.azimuth_deg), millimetres(row.tilt_deg)});
     add_answers(row, frame.columns, feature);
     writer.add(feature);
@@ -188,11 +188,12 @@ void write_buildings_as_features(std::span<const BuildingMean> rows, const Table
     add_fields(layer, FieldType::real, {column.name});
   writer.begin(layer);
   for (const BuildingMean& r : rows) {
+    const BuildingAreas areas = areas_of(r);
     FeatureRow feature{{},
                        {},
-                       {std::string_view(r.building), millimetres(r.roof_area_m2), millimetres(r.wall_area_m2),
+                       {std::string_view(r.building), millimetres(areas.roofs_m2), millimetres(areas.walls_m2),
                         whole(r.receivers), whole(r.nodata), share(r.svf_roofs), share(r.svf_walls),
-                        millimetres(r.covered_roof_area_m2), millimetres(r.covered_wall_area_m2)}};
+                        millimetres(areas.covered_roofs_m2), millimetres(areas.covered_walls_m2)}};
     for (const AreaColumn& column : area_columns_of(r, frame.columns)) feature.values.push_back(number(column));
     writer.add(feature);
   }

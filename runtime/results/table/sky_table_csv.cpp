@@ -49,7 +49,7 @@ void add_answer(const Row& row, const AnswerColumns& columns, CsvText& text) {
 }
 
 void add_point(const PointRow& r, CsvText& text) {
-  text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m);
+  text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m).millimetres(r.above_ground_m);
 }
 
 CsvText point_header(const PointRows& rows, const AnswerColumns& columns) {
@@ -89,9 +89,10 @@ void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& te
 }
 
 void add_building(const BuildingMean& r, const AnswerColumns& columns, CsvText& text) {
-  text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
+  const BuildingAreas areas = areas_of(r);
+  text.field(r.building).millimetres(areas.roofs_m2).millimetres(areas.walls_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls);
-  text.millimetres(r.covered_roof_area_m2).millimetres(r.covered_wall_area_m2);
+  text.millimetres(areas.covered_roofs_m2).millimetres(areas.covered_walls_m2);
   add_area_columns(area_columns_of(r, columns), text);
 }
 

@@ -46,7 +46,7 @@ class CsvText {
 
 // Tables as CSV; docs/stages/results.md says how rows, numbers and missing answers are written. All functions throw OutputError.
 
-/// Columns: id, the attributes, x_m, y_m, z_m, with normals azimuth_deg and tilt_deg, then the answers.
+/// Columns: id, the attributes, x_m, y_m, z_m, height_above_ground_m, with normals azimuth_deg and tilt_deg, then the answers.
 void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
 /// Columns: building, surface, kind, x_m, y_m, z_m, azimuth_deg, tilt_deg, area_m2, then the answers. Rows come in parts, in any

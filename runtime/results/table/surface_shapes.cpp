@@ -30,7 +30,8 @@ void SurfaceShapes::add(const MeshPart& part) {
   if (number == numbers_.end()) return;
   std::vector<SpaceTriangle> triangles;
   for (auto begin = part.triangles.begin(); begin != part.triangles.end();) {
-    const auto end = std::find_if(begin, part.triangles.end(), [&](const MeshTriangle& t) { return t.surface != begin->surface; });
+    const auto end =
+        std::find_if(begin, part.triangles.end(), [&](const MeshTriangle& t) { return t.surface != begin->surface; });
     triangles.clear();
     for (auto t = begin; t != end && has_receivers(t->kind); ++t)
       triangles.push_back({part.vertices_projected[t->vertices[0]], part.vertices_projected[t->vertices[1]],

@@ -12,7 +12,7 @@ std::vector<std::string> names_of(const AnswerColumns& columns) {
 }
 
 std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns) {
-  std::vector<std::string> names{"id", "x_m", "y_m", "z_m"};
+  std::vector<std::string> names{"id", "x_m", "y_m", "z_m", "height_above_ground_m"};
   if (normals) names.insert(names.end(), {"azimuth_deg", "tilt_deg"});
   const std::vector<std::string> answers = names_of(columns);
   names.insert(names.end(), answers.begin(), answers.end());

@@ -30,7 +30,8 @@ struct PointRow {
   std::optional<double> low, high;  ///< certain bounds, where asked for
   /// Where it looks, clockwise from true north and from straight up; none: straight up.
   std::optional<double> azimuth_deg = {}, tilt_deg = {};
-  std::span<const float> further = {};  ///< as many as AnswerColumns::further; NaN where there is no answer
+  std::span<const float> further = {};        ///< as many as AnswerColumns::further; NaN where there is no answer
+  std::optional<double> above_ground_m = {};  ///< unknown also where there is no ground
 };
 
 /// Whether tables of receivers have columns for the bounds.
@@ -68,7 +69,8 @@ struct PointRows {
 /// The names of the columns of the answers.
 [[nodiscard]] std::vector<std::string> names_of(const AnswerColumns& columns);
 
-/// The names of the columns of a table of points besides those of its attributes: id, x_m, y_m, z_m, those of normals, answers.
+/// The names of the columns of a table of points besides those of its attributes: id, x_m, y_m, z_m,
+/// height_above_ground_m, those of normals, answers.
 [[nodiscard]] std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns);
 
 /// The value of the k-th further column, of a receiver or a mean; NaN where there is no answer, and therefore no values.

@@ -53,18 +53,18 @@ TEST(CsvText, SeparatesFieldsAndEndsRows) {
 
 TEST(PointsCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
-  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5, 0.25, 0.75},
+  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5, 0.25, 0.75, {}, {}, {}, 1.25},
                                    {"inside", {1.0, -2.25}, {}, {}, {}, {}}};
   write_points_csv(point_rows(rows), {"svf_solid", BoundsColumns::no}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "id,x_m,y_m,z_m,svf_solid\n"
-            "\"square, north\",500000.123,5700010,1.5,0.500000\n"
-            "inside,1,-2.25,,\n");
+            "id,x_m,y_m,z_m,height_above_ground_m,svf_solid\n"
+            "\"square, north\",500000.123,5700010,1.5,1.25,0.500000\n"
+            "inside,1,-2.25,,,\n");
   write_points_csv(point_rows(rows), {"svf", BoundsColumns::yes}, folder.file("b.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("b.csv")),
-            "id,x_m,y_m,z_m,svf,svf_low,svf_high\n"
-            "\"square, north\",500000.123,5700010,1.5,0.500000,0.250000,0.750000\n"
-            "inside,1,-2.25,,,,\n");
+            "id,x_m,y_m,z_m,height_above_ground_m,svf,svf_low,svf_high\n"
+            "\"square, north\",500000.123,5700010,1.5,1.25,0.500000,0.250000,0.750000\n"
+            "inside,1,-2.25,,,,,\n");
 }
 
 TEST(PointsCsv, HasAttributesBehindTheIdAndNormalsBeforeTheAnswer) {
@@ -78,9 +78,9 @@ TEST(PointsCsv, HasAttributesBehindTheIdAndNormalsBeforeTheAnswer) {
   with_attributes.normals = true;
   write_points_csv(with_attributes, {"svf", BoundsColumns::no}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "id,note,count,x_m,y_m,z_m,azimuth_deg,tilt_deg,svf\n"
-            "1,\"a,b\",3,1,2,3,270,45.5,0.500000\n"
-            "2,,4,3,4,,,,\n");
+            "id,note,count,x_m,y_m,z_m,height_above_ground_m,azimuth_deg,tilt_deg,svf\n"
+            "1,\"a,b\",3,1,2,3,,270,45.5,0.500000\n"
+            "2,,4,3,4,,,,,\n");
 }
 
 TEST(PointsCsv, FurtherColumnsFollowTheBounds) {
@@ -91,9 +91,9 @@ TEST(PointsCsv, FurtherColumnsFollowTheBounds) {
   const AnswerColumns columns{"svf", BoundsColumns::yes, {{"sun_h"}, {"sky_w_m2"}}};
   write_points_csv(point_rows(rows), columns, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "id,x_m,y_m,z_m,svf,svf_low,svf_high,sun_h,sky_w_m2\n"
-            "1,1,2,3,0.500000,0.250000,0.750000,12.25,\n"
-            "2,3,4,,,,,0.0000001,300\n");
+            "id,x_m,y_m,z_m,height_above_ground_m,svf,svf_low,svf_high,sun_h,sky_w_m2\n"
+            "1,1,2,3,,0.500000,0.250000,0.750000,12.25,\n"
+            "2,3,4,,,,,,0.0000001,300\n");
   EXPECT_EQ(own_columns_of_points(false, columns).back(), "sky_w_m2");
 }
 
@@ -184,11 +184,12 @@ TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
 
 TEST(BuildingsCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
-  const std::vector<BuildingMean> rows{{"b1", 100.0, 0.0, 2.5, 0.0, 25, 0, 0.75, std::nullopt}};
+  const std::vector<BuildingMean> rows{{"b1", 100.0, 0.0, 2.5, 0.0, 25, 0, 0.75}, {"b2", 0.0, 0.0, 0.0, 7.0, 3, 3}};
   write_buildings_csv(rows, {"svf"}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls,covered_roof_area_m2,covered_wall_area_m2\n"
-            "b1,100,0,25,0,0.750000,,2.5,0\n");
+            "b1,100,,25,0,0.750000,,2.5,\n"
+            "b2,,0,3,3,,,,7\n");
 }
 
 /// Of a run that asked for irradiation, and for the area that gets some of it.
@@ -220,7 +221,7 @@ TEST(BuildingsCsv, HaveFurtherColumnsOfRoofsAndWalls) {
             "irradiation_roofs,shade_roofs,irradiation_walls,shade_walls,roof_irradiation_kwh,wall_irradiation_kwh,"
             "roof_area_above_m2,wall_area_above_m2\n"
             "b1,100,50,25,0,0.750000,0.500000,0,0,1000.25,0.5,500.5,0.25,100025,25025,90.5,0\n"
-            "b2,0,0,1,1,,,9,0,,,,,,,,\n");
+            "b2,0,,1,1,,,9,,,,,,,,,\n");
 }
 
 /// A PLY file, read by its own header.

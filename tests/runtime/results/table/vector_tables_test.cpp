@@ -33,7 +33,7 @@ GDALDatasetUniquePtr open_vector(const std::filesystem::path& path) {
 /// Two points with attributes and normals, of which the second has no answer.
 struct TwoPoints {
   Attributes attributes{{"fid", "geom", "note", "count"}};
-  std::vector<PointRow> rows{{"square", {500000.12345, 5700010.5}, 1.5, 0.1234567, 0.1, 0.75, 270.0, 45.5},
+  std::vector<PointRow> rows{{"square", {500000.12345, 5700010.5}, 1.5, 0.1234567, 0.1, 0.75, 270.0, 45.5, {}, 1.25},
                              {"inside", {500100.0, 5700020.0}, {}, {}, {}, {}, {}, {}}};
   TableFrame frame{{"svf", BoundsColumns::yes}, small_raster().crs_wkt, 25832, {}, {"Far-LoD 1", "town.farlod", "0123", "--all"}};
 
@@ -85,8 +85,9 @@ TEST(VectorTables, HaveTheColumnsOfCsvWithTypes) {
     const auto dataset = open_vector(folder.file("a" + ending));
     ASSERT_NE(dataset, nullptr);
     OGRLayer& layer = *dataset->GetLayer(0);
-    EXPECT_THAT(field_names(layer), ElementsAre("id", "fid", "geom", "note", "count", "x_m", "y_m", "z_m", "azimuth_deg",
-                                                "tilt_deg", "svf", "svf_low", "svf_high"));
+    EXPECT_THAT(field_names(layer),
+                ElementsAre("id", "fid", "geom", "note", "count", "x_m", "y_m", "z_m", "height_above_ground_m", "azimuth_deg",
+                            "tilt_deg", "svf", "svf_low", "svf_high"));
     EXPECT_EQ(type_of(layer, "id"), OFTString);
     EXPECT_EQ(type_of(layer, "note"), OFTString);
     EXPECT_EQ(type_of(layer, "svf"), OFTReal);
@@ -97,10 +98,11 @@ TEST(VectorTables, HaveTheColumnsOfCsvWithTypes) {
     EXPECT_EQ(square.GetFieldAsDouble("svf"), 0.123457);
     EXPECT_EQ(square.GetFieldAsDouble("x_m"), 500000.123);
     EXPECT_EQ(square.GetFieldAsDouble("tilt_deg"), 45.5);
+    EXPECT_EQ(square.GetFieldAsDouble("height_above_ground_m"), 1.25);
     EXPECT_STREQ(square.GetFieldAsString("note"), "the \"old\" <town>,\ttwo");
     EXPECT_EQ(square.GetFieldAsInteger64("count"), 3);
     OGRFeature& inside = *features.at("inside");
-    for (const char* empty : {"svf", "svf_low", "svf_high", "z_m", "azimuth_deg", "tilt_deg"})
+    for (const char* empty : {"svf", "svf_low", "svf_high", "z_m", "height_above_ground_m", "azimuth_deg", "tilt_deg"})
       EXPECT_FALSE(inside.IsFieldSetAndNotNull(inside.GetFieldIndex(empty))) << empty;
   }
 }
@@ -238,6 +240,7 @@ TEST(GeoPackage, HasThreeLayersOfSurfaces) {
   const auto buildings_by_id = features_by(of_buildings, "building");
   const auto& b2 = buildings_by_id.at("b2");
   EXPECT_EQ(b2->GetFieldAsDouble("svf_walls"), 0.125);
+  EXPECT_FALSE(b2->IsFieldSetAndNotNull(b2->GetFieldIndex("roof_area_m2")));
   EXPECT_EQ(b2->GetFieldAsDouble("irradiation_walls"), 500.5);
   EXPECT_EQ(b2->GetFieldAsDouble("wall_irradiation_kwh"), 1001.0);
   EXPECT_EQ(b2->GetFieldAsDouble("wall_area_above_m2"), 2.0);
