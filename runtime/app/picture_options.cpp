@@ -3,6 +3,8 @@
 #include "app/picture_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <set>
 
 #include "app/format_advice.hpp"
 #include "console/option_list.hpp"
@@ -51,10 +53,51 @@ void resolve_projection(const RawPictures& raw, SvfOptions& o) {
                                                   : SkyProjection::orthographic;
 }
 
+/// The words of --quantity.
+std::vector<std::string> quantity_words_in(const RawQuantities& raw) {
+  return raw.quantities.empty() ? std::vector<std::string>{} : CLI::detail::split(raw.quantities, ',');
+}
+
+/// The name of the first column of a quantity.
+std::string first_column_of(const std::string& quantity) {
+  if (quantity == "sunlit") return "sunlit_h";
+  Quantities alone;
+  const bool is_known = ask_for(quantity, alone);
+  const std::vector<std::string> columns = is_known ? columns_of(alone) : std::vector<std::string>{};
+  return columns.empty() ? quantity : columns.front();
+}
+
 }  // namespace
 
+bool fits_picture(const RawQuantities& raw) {
+  std::set<std::string> besides;
+  for (const std::string& word : quantity_words_in(raw))
+    if (word != "svf") besides.insert(word);
+  if (!raw.sun.empty()) besides.insert("sunlit");
+  if (raw.horizons > 0 && !besides.contains("horizon_distance")) besides.insert("horizon");
+  if (raw.sky_patches > 0) besides.insert("sky_patches");
+  return besides.size() <= 1;
+}
+
+std::string drawn_quantity(const RawQuantities& raw) {
+  const std::vector<std::string> words = quantity_words_in(raw);
+  if (!words.empty()) return words.back();
+  if (!raw.sun.empty()) return "sunlit";
+  return raw.horizons > 0 ? "horizon" : raw.sky_patches > 0 ? "sky_patches" : "";
+}
+
+std::size_t drawn_band_of(const SvfOptions& options, const std::vector<ColumnDescription>& bands) {
+  const std::string name = options.drawn_quantity.empty() ? "svf_total" : first_column_of(options.drawn_quantity);
+  // Names of horizons may have decimals
+  const auto found = std::ranges::find_if(bands, [&](const ColumnDescription& band) { return band.name.starts_with(name); });
+  return found == bands.end() ? 0 : static_cast<std::size_t>(found - bands.begin());
+}
+
 void add_picture_options(CLI::App& app, RawPictures& raw, SvfOptions& o) {
-  app.add_option("--preview", o.preview_file, "Also draw the raster as this picture (PNG, SVG or PDF), with a colour scale")
+  app.add_option(
+         "--preview", o.preview_file,
+         "Also draw the raster as this picture (PNG, SVG or PDF), with a colour scale: the quantity that is named last, else "
+         "svf_total where it comes by itself, else svf")
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--histogram", o.histogram_file,

@@ -23,4 +23,15 @@ void add_picture_options(CLI::App& app, RawPictures& raw, SvfOptions& o);
 /// Once the receivers and the format of -o are known. Also of the map of a verification. Throws CLI::ValidationError.
 void resolve_pictures(const RawPictures& raw, SvfOptions& o);
 
+/// Whether a picture of a raster has room for what is asked for: one quantity beside svf.
+[[nodiscard]] bool fits_picture(const RawQuantities& raw);
+
+/// The quantity that a picture shows: that which --quantity names last, else that of another option; empty
+/// where nothing is named.
+[[nodiscard]] std::string drawn_quantity(const RawQuantities& raw);
+
+/// Where the band that a picture shows is among those of a raster: the first of the drawn quantity. Where nothing is named, it is
+/// svf_total if that comes by itself, of a city with trees.
+[[nodiscard]] std::size_t drawn_band_of(const SvfOptions& options, const std::vector<ColumnDescription>& bands);
+
 }  // namespace farlod

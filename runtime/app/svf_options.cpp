@@ -309,7 +309,8 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError(
         "--quantity", "a picture of the sky shows svf, irradiation, and with --sun the sun's path: leave the others out");
   const auto has_room = [&](const OutputFormat& f) { return fits(f, o.source) && f.holds_bounds; };
-  if (requested.any() && !is_sky && o.format != nullptr && !o.format->holds_bounds)
+  const bool is_drawn = o.source == ReceiverSource::grid && o.format != nullptr && o.format->is_picture;
+  if (requested.any() && !is_sky && o.format != nullptr && !o.format->holds_bounds && !(is_drawn && fits_picture(raw.quantities)))
     throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
                                                  " has room for one quantity only: " + advice(has_room));
   requested.further.svf_total_bounds = requested.further.svf_total && o.evaluation.bounds;
@@ -317,6 +318,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))
     throw CLI::ValidationError("--irradiation-threshold", "it goes with --surfaces and --quantity irradiation");
   o.names_quantities = requested.any() || !raw.quantities.quantities.empty();
+  o.drawn_quantity = drawn_quantity(raw.quantities);
   o.evaluation.further = std::move(requested.further);
   o.sunshine = requested.sunshine;
 }
@@ -370,9 +372,8 @@ void add_quantities_for(bool has_trees, SvfOptions& o) {
   if (o.format == nullptr) return;
   Quantities& further = o.evaluation.further;
   add_for_solweig(*o.format, has_trees, further);
-  if (!has_trees || o.names_quantities || !o.format->holds_bounds || o.evaluation.max_error ||
-      o.evaluation.weight != SkyWeight::cosine)
-    return;
+  const bool has_room = o.format->holds_bounds || (o.format->is_picture && o.source == ReceiverSource::grid);
+  if (!has_trees || o.names_quantities || !has_room || o.evaluation.max_error || o.evaluation.weight != SkyWeight::cosine) return;
   further.svf_total = true;
   further.svf_total_bounds = o.evaluation.bounds;
 }

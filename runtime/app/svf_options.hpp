@@ -45,6 +45,7 @@ struct SvfOptions {
   EvaluationSettings evaluation;      ///< but for the sun and its light, which depend on where the package is
   std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
   bool names_quantities = false;      ///< whether any are asked for: else a city with trees has svf_total, too
+  std::string drawn_quantity;         ///< that a picture of a raster shows; empty: nobody named any
   std::optional<LightSource> light;   ///< where the light of a period comes from, if any is asked for
   std::string preview_file, verify_file, histogram_file;
   SkyProjection projection = SkyProjection::equal_area;

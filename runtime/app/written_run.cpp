@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/named_points.hpp"
+#include "app/picture_options.hpp"
 #include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
 #include "app/sun_of_package.hpp"
@@ -45,16 +46,19 @@ std::vector<Band> bands_of_run(const SvfOptions& options) {
 }
 
 RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Package& package, std::size_t threads) {
+  std::vector<Band> bands = bands_of_run(options);
+  const std::size_t drawn = drawn_band_of(options, bands);
   return {plan.north_west_m,
           plan.step_m,
           plan.columns,
           plan.rows,
-          bands_of_run(options),
+          std::move(bands),
           package.description().crs_wkt,
           package.description().epsg,
           threads,
           provenance_of(options, package.description()),
-          &package};
+          &package,
+          drawn};
 }
 
 TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const Package& package) {
@@ -63,6 +67,12 @@ TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, con
 }
 
 bool draws_errors(const SvfOptions& options) { return options.verify_format != nullptr && options.verify_format->is_picture; }
+
+/// What is verified, and what a map of errors shows.
+RasterFrame with_svf_drawn(RasterFrame frame) {
+  frame.drawn_band = 0;
+  return frame;
+}
 
 /// Larger rasters are averaged.
 constexpr auto most_pixels_of_picture = static_cast<double>(longest_preview_edge * longest_preview_edge);
@@ -81,8 +91,9 @@ class RasterFiles {
   void plan(const OutputFormat& format, const RasterFrame& frame) {
     bytes_ += format.raster_writer_bytes(frame);
     const double pixels = static_cast<double>(frame.columns) * static_cast<double>(frame.rows);
-    output_bytes_ += (format.is_picture ? std::min(pixels, most_pixels_of_picture) : pixels) *
-                     static_cast<double>(frame.bands.size()) * format.bytes_of_pixel;
+    const double values =
+        format.is_picture ? std::min(pixels, most_pixels_of_picture) : pixels * static_cast<double>(frame.bands.size());
+    output_bytes_ += values * format.bytes_of_pixel;
   }
   void add(const OutputFormat& format, const RasterFrame& frame, const std::filesystem::path& path) {
     writers_.push_back(format.raster_writer(frame, path));
@@ -248,7 +259,7 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
   add_files(options, frame, files);
   RunHistogram histogram(options);
   std::optional<ScreenFit> fit;
-  if (draws_errors(options)) fit.emplace(frame);
+  if (draws_errors(options)) fit.emplace(with_svf_drawn(frame));
   run.caller_bytes = files.bytes() + (fit ? PreviewWriter::bytes_for(frame) : 0);
   const auto take = [&](const RasterTile& tile) {
     files.write(tile);

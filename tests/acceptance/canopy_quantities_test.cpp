@@ -110,6 +110,18 @@ TEST_F(TreeTown, HasTheTotalWhereNobodySaysWhatToCompute) {
   EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.asc --grid 8").out, testing::Not(HasSubstr("crowns")));
 }
 
+TEST_F(TreeTown, PicturesShowTheTotalWhereNobodySaysWhatToDraw) {
+  const auto picture_of = [&](const std::string& arguments) {
+    folder.must("farlod-svf b.farlod --grid 8 -o " + arguments);
+    return folder.text_of("o.png");
+  };
+  const std::string total = picture_of("o.png");
+  EXPECT_TRUE(total == picture_of("o.png --quantity svf_total"));
+  EXPECT_TRUE(total == picture_of("o.tif --preview o.png"));
+  EXPECT_TRUE(total == picture_of("o.tif --preview o.png --quantity svfaveg,svf_total"));
+  EXPECT_FALSE(total == picture_of("o.png --quantity svf"));
+}
+
 TEST_F(TreeTown, HasTheSameSkyViewFactorsAsTheTownWithoutTrees) {
   for (const std::string package : {"a", "b"})
     folder.must("farlod-svf " + package + ".farlod -o " + package + ".tif --grid 8 --quantity directional --horizons 8");

@@ -179,11 +179,23 @@ TEST_F(PackedTown, IrradiationOfAClearSkyNeedsNoFile) {
   EXPECT_LT(most, 9.5);
 }
 
+TEST_F(PackedTown, PicturesShowWhatIsNamedLast) {
+  const auto picture_of = [&](const std::string& arguments) {
+    folder.must("farlod-svf a.farlod --grid 8 --sun 2026-06-21 -o " + arguments);
+    return folder.text_of("o.png");
+  };
+  const std::string sun = picture_of("o.png");
+  EXPECT_TRUE(sun == picture_of("o.png --quantity sunlit"));
+  EXPECT_TRUE(sun == picture_of("o.tif --preview o.png --quantity directional,sunlit"));
+  EXPECT_FALSE(sun == picture_of("o.tif --preview o.png --quantity sunlit,svf"));
+}
+
 TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
     expect_refusal(folder.run("farlod-svf a.farlod " + arguments), exit_usage, said);
   };
   refused("-o o.asc --grid 8 --quantity directional", {"--quantity", ".asc", "one quantity only"});
+  refused("-o o.png --grid 8 --quantity directional,hidden", {"--quantity", ".png", "one quantity only"});
   refused("-o o.png --at 1,2 --sun 2026 --horizons 36", {"--quantity", "--sun", "leave the others out"});
   refused("-o o.csv --at 1,2 --quantity light", {"--quantity", "light", "svf_solid"});
   refused("-o o.csv --at 1,2 --quantity sunlit", {"--quantity", "--sun"});

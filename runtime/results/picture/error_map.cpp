@@ -27,14 +27,14 @@ constexpr double step_of_lines = 24.0;
 PagePoint point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
 bool has_values(const GreyMap& map) {
-  return std::ranges::any_of(map.raster.svf, [](float svf) { return !std::isnan(svf); });
+  return std::ranges::any_of(map.raster.values, [](float svf) { return !std::isnan(svf); });
 }
 
 Picture grey_picture_of(const PreviewRaster& raster) {
   Picture picture({raster.columns, raster.rows}, nothing);
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column) {
-      const float svf = raster.svf[row * raster.columns + column];
+      const float svf = raster.values[row * raster.columns + column];
       if (std::isnan(svf)) continue;
       const double share = std::clamp(static_cast<double>(svf), 0.0, 1.0);
       const auto grey = static_cast<std::uint8_t>(std::lround(darkest_grey + share * (lightest_grey - darkest_grey)));
@@ -173,7 +173,7 @@ GreyMap map_around(std::span<const VerifiedReceiver> receivers, const Box2d& oth
     return std::max<std::size_t>(static_cast<std::size_t>(std::lround(length_m / step_m)), 1);
   };
   GreyMap map{{part.low.x, part.high.y}, {pixels(width_m), pixels(height_m), step_m, {}}};
-  map.raster.svf.assign(map.raster.columns * map.raster.rows, std::numeric_limits<float>::quiet_NaN());
+  map.raster.values.assign(map.raster.columns * map.raster.rows, std::numeric_limits<float>::quiet_NaN());
   return map;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/expects.hpp"
 #include "results/picture/picture.hpp"
+#include "results/picture/value_scale.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -38,12 +39,14 @@ void add_axis_of_values(Drawing& drawing, const std::string& quantity) {
   add_text(drawing, {plot_left + 0.5 * plot_width, bottom + 48.0}, quantity, Alignment::centre);
 }
 
+constexpr int most_steps_of_shares = 5;
+
 void add_axis_of_shares(Drawing& drawing, double highest) {
-  constexpr int steps = 5;
-  for (int n = 0; n <= steps; ++n) {
-    const double share = highest * n / steps, y = histogram_point(0.0, share, highest).y;
+  const double step = tick_step(highest, most_steps_of_shares);
+  for (int n = 0; n <= std::lround(highest / step); ++n) {
+    const double share = step * n, y = histogram_point(0.0, share, highest).y;
     if (n > 0) drawing.shapes.emplace_back(Line{{{plot_left, y}, {plot_left + plot_width, y}}, 0.8, grid_line_colour});
-    add_text(drawing, {plot_left - 10.0, y + half_digit_height * text_height}, fmt::format("{:g} %", 100.0 * share),
+    add_text(drawing, {plot_left - 10.0, y + half_digit_height * text_height}, tick_text(100.0 * share, 100.0 * step) + " %",
              Alignment::right);
   }
 }
@@ -141,11 +144,11 @@ double highest_share(std::span<const HistogramSeries> series) {
     const std::vector<double> shares = s.counts.shares(histogram_bins);
     largest = std::max(largest, *std::ranges::max_element(shares));
   }
+  if (!(largest > 0.0)) return 1.0;
   // Where all values are in one bin, the sum of shares may miss 1 by its rounding
   constexpr double rounding = 1e-9;
-  for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5})
-    if (largest <= share + rounding) return share;
-  return 1.0;
+  const double step = tick_step(largest, most_steps_of_shares);
+  return std::min(step * std::ceil(largest / step - rounding), 1.0);
 }
 
 Colour colour_of_series(std::size_t n) {

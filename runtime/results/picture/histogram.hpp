@@ -58,7 +58,7 @@ inline constexpr std::size_t histogram_bins = 50;
 
 /// The place of a value and of a share on the page of draw_histogram; `highest` is the share at the top.
 [[nodiscard]] PagePoint histogram_point(double value, double share, double highest);
-/// The share at the top of the axis: the least of 1, 2 or 5 times a power of ten that no bar exceeds.
+/// The share at the top of the axis: that of the tallest bar, rounded up to a tick, of which there are five at the most.
 [[nodiscard]] double highest_share(std::span<const HistogramSeries> series);
 [[nodiscard]] Colour colour_of_series(std::size_t n);
 

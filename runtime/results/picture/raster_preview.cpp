@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "results/picture/picture.hpp"
+#include "results/picture/value_scale.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -19,16 +21,17 @@ constexpr std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 
 std::size_t longer_edge(const RasterFrame& frame) { return std::max({frame.columns, frame.rows, std::size_t{1}}); }
 
 PreviewRaster enlarged(const PreviewRaster& raster, std::size_t factor) {
-  PreviewRaster result{raster.columns * factor, raster.rows * factor, raster.metres_per_pixel / static_cast<double>(factor), {}};
-  result.svf.reserve(result.columns * result.rows);
+  PreviewRaster result{
+      raster.columns * factor, raster.rows * factor, raster.metres_per_pixel / static_cast<double>(factor), {}, factor};
+  result.values.reserve(result.columns * result.rows);
   for (std::size_t row = 0; row < result.rows; ++row)
     for (std::size_t column = 0; column < result.columns; ++column)
-      result.svf.push_back(raster.svf[row / factor * raster.columns + column / factor]);
+      result.values.push_back(raster.values[row / factor * raster.columns + column / factor]);
   return result;
 }
 
-// Colours must stay those of the scale, nearly
-constexpr float darkest = 0.6F, lightest = 1.25F;
+// Greys must stay apart from that of buildings
+constexpr float darkest = 0.6F, lightest = 1.25F, share_of_grey = 0.25F;
 /// Changes of lightness below this are not seen, nor are a few pixels.
 constexpr float visible = 0.03F;
 constexpr std::size_t pixels_for_one_that_shows = 100;
@@ -86,74 +89,105 @@ constexpr std::size_t margin = 24, gap = 16, heading_height = 50;
 constexpr PixelSize legend_size{96, 280};
 constexpr std::size_t colour_bar_width = 28, footer_height = 48;
 constexpr std::size_t narrowest_content = 560;  // the longest title must fit
-constexpr int colour_ticks = 5;                 // at 0.0, 0.2, … 1.0
-
-std::string title_of(const std::string& quantity) {
-  if (quantity == "svf") return "Sky view factor (svf)";
-  if (quantity == "svf_solid") return "Solid angle share of the sky (svf_solid)";
-  return quantity;
-}
 
 /// The unit of the colours, the pixels that they stand for, and where north is up.
-std::string subtitle_of(const RasterFrame& frame) {
-  std::string text = "No unit: 0 hidden, 1 open sky. Pixels of " + shortest_decimal(frame.step_m) + " m";
+std::string subtitle_of(const RasterFrame& frame, const ValueScale& scale) {
+  std::string text = scale.subtitle + ". Pixels of " + shortest_decimal(frame.step_m) + " m";
   if (frame.epsg) text += ", EPSG:" + std::to_string(*frame.epsg);
   return text;
 }
 
+ValueScale drawn_scale(const PreviewRaster& raster, const RasterFrame& frame) {
+  double max_value = 0.0;
+  for (const float value : raster.values)
+    if (std::isfinite(value)) max_value = std::max(max_value, static_cast<double>(value));
+  return scale_of(frame.bands[frame.drawn_band], max_value);
+}
+
 PagePoint page_point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
-Picture map_of(const PreviewRaster& raster, const std::vector<float>& shading) {
-  Picture map({raster.columns, raster.rows}, nodata_colour);
+bool has_no_value(float value) { return std::isnan(value); }
+
+/// Which greys a map has, and whether the ground's light is seen in any.
+struct Greys {
+  bool of_buildings = false, others = false, are_lit = false;
+};
+
+Greys greys_of(const PreviewRaster& raster, const PlanBackground& background) {
+  Greys greys;
+  for (std::size_t n = 0; n < raster.values.size(); ++n) {
+    if (!has_no_value(raster.values[n])) continue;
+    const bool is_covered = !background.is_covered.empty() && background.is_covered[n];
+    (is_covered ? greys.of_buildings : greys.others) = true;
+    const bool is_lit = !background.shading.empty() && std::abs(background.shading[n] - 1.0F) > visible;
+    greys.are_lit = greys.are_lit || (is_lit && !is_covered);
+  }
+  return greys;
+}
+
+Colour grey_of(const PlanBackground& background, std::size_t pixel) {
+  if (!background.is_covered.empty() && background.is_covered[pixel]) return covered_grey;
+  const float light = background.shading.empty() ? 1.0F : background.shading[pixel];
+  return lit(no_value_grey, 1.0F + share_of_grey * (light - 1.0F));
+}
+
+Picture map_of(const PreviewRaster& raster, const ValueScale& scale, const PlanBackground& background) {
+  Picture map({raster.columns, raster.rows}, no_value_grey);
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column) {
       const std::size_t n = row * raster.columns + column;
-      const float svf = raster.svf[n];
-      if (!std::isnan(svf)) map.set({column, row}, lit(colour_of_svf(svf), shading.empty() ? 1.0F : shading[n]));
+      const float value = raster.values[n];
+      map.set({column, row}, has_no_value(value) ? grey_of(background, n) : scale.colour_of(static_cast<double>(value)));
     }
   return map;
 }
 
 Picture colour_scale_of(PixelSize size) {
-  Picture scale(size, ink);
+  Picture colours(size, ink);
   for (std::size_t y = 0; y < size.height; ++y) {
-    const double svf = 1.0 - static_cast<double>(y) / static_cast<double>(size.height - 1);
-    scale.fill({0, y}, {size.width, 1}, colour_of_svf(svf));
+    const double share = 1.0 - static_cast<double>(y) / static_cast<double>(size.height - 1);
+    colours.fill({0, y}, {size.width, 1}, colour_of_svf(share));
   }
-  return scale;
+  return colours;
 }
 
-void add_colour_bar(Drawing& drawing, const PreviewLayout& layout) {
+void add_colour_bar(Drawing& drawing, const PreviewLayout& layout, const ValueScale& scale) {
   drawing.shapes.emplace_back(Image{layout.colour_bar, colour_scale_of(layout.colour_bar_size)});
   const auto [left, top] = page_point_of(layout.colour_bar);
   const double right = left + static_cast<double>(layout.colour_bar_size.width);
-  for (int n = 0; n <= colour_ticks; ++n) {
-    const double svf = static_cast<double>(n) / colour_ticks;
-    const double y = top + 0.5 + (1.0 - svf) * static_cast<double>(layout.colour_bar_size.height - 1);
+  drawing.shapes.emplace_back(Text{{left, top - 6.0}, scale.unit, text_height, Alignment::left, ink});
+  for (const double tick : scale.ticks()) {
+    const double y = top + 0.5 + (1.0 - tick / scale.end) * static_cast<double>(layout.colour_bar_size.height - 1);
     drawing.shapes.emplace_back(Line{{{right, y}, {right + tick_length, y}}, tick_width, ink});
     drawing.shapes.emplace_back(Text{{right + tick_length + 4.0, y + half_digit_height * text_height},
-                                     svf_decimal(svf).substr(0, 3),
+                                     tick_text(tick, scale.step()),
                                      text_height,
                                      Alignment::left,
                                      ink});
   }
 }
 
-void add_nodata_legend(Drawing& drawing, PagePoint place) {
-  constexpr double edge = 14.0;
-  drawing.shapes.emplace_back(box(place, edge, edge, nodata_colour));
-  drawing.shapes.emplace_back(Text{{place.x + edge + 8.0, place.y + edge - 2.0}, "no data", text_height, Alignment::left, ink});
+/// A box of a grey and its meaning; returns where the next one stands.
+PagePoint add_grey_legend(Drawing& drawing, PagePoint place, Colour grey, const char* words, double width) {
+  constexpr double edge = 14.0, rim = 1.0;
+  drawing.shapes.emplace_back(box(place, edge, edge, muted));
+  drawing.shapes.emplace_back(box({place.x + rim, place.y + rim}, edge - 2.0 * rim, edge - 2.0 * rim, grey));
+  drawing.shapes.emplace_back(Text{{place.x + edge + 8.0, place.y + edge - 2.0}, words, text_height, Alignment::left, ink});
+  return {place.x + width, place.y};
 }
 
-void add_background_legend(Drawing& drawing, PagePoint place, const PlanBackground& background) {
+void add_legend(Drawing& drawing, PagePoint place, const PlanBackground& background, const Greys& greys) {
+  PagePoint next = place;
+  if (greys.of_buildings) next = add_grey_legend(drawing, next, covered_grey, "buildings", 108.0);
+  if (greys.others) next = add_grey_legend(drawing, next, no_value_grey, "no data", 92.0);
   if (!background.outlines.empty()) {
-    const double y = place.y + 7.5;
-    drawing.shapes.emplace_back(Line{{{place.x + 86.0, y}, {place.x + 108.0, y}}, outline_width, outline_colour});
-    drawing.shapes.emplace_back(Text{{place.x + 116.0, place.y + 12.0}, "roofs", text_height, Alignment::left, ink});
+    const double y = next.y + 7.5;
+    drawing.shapes.emplace_back(Line{{{next.x, y}, {next.x + 22.0, y}}, outline_width, outline_colour});
+    drawing.shapes.emplace_back(Text{{next.x + 30.0, next.y + 12.0}, "roofs", text_height, Alignment::left, ink});
   }
-  if (!background.shading.empty())
+  if (greys.are_lit)
     drawing.shapes.emplace_back(
-        Text{{place.x, place.y + 32.0}, "Ground lit from the north-west", text_height, Alignment::left, muted});
+        Text{{place.x, place.y + 32.0}, "Ground without data lit from the north-west", text_height, Alignment::left, muted});
 }
 
 void add_outlines(Drawing& drawing, const PreviewLayout& layout, const PlanBackground& background) {
@@ -174,14 +208,15 @@ ScreenFit::ScreenFit(const RasterFrame& frame)
       answers_(columns_ * rows_) {}
 
 void ScreenFit::add(const RasterTile& tile) {
+  const std::span<const float> values = farlod::bands_of(tile)[frame_.drawn_band];
   const std::size_t columns = pixels_of_tile(tile.place.column, frame_.columns);
   for (std::size_t row = 0; row < pixels_of_tile(tile.place.row, frame_.rows); ++row) {
     const std::size_t first = (tile.place.row * raster_tile_edge + row) / pixels_per_square_ * columns_;
     for (std::size_t column = 0; column < columns; ++column) {
-      const float svf = tile.svf[row * raster_tile_edge + column];
-      if (std::isnan(svf)) continue;
+      const float value = values[row * raster_tile_edge + column];
+      if (std::isnan(value)) continue;
       const std::size_t square = first + (tile.place.column * raster_tile_edge + column) / pixels_per_square_;
-      sums_[square] += svf;
+      sums_[square] += static_cast<double>(value);
       ++answers_[square];
     }
   }
@@ -197,9 +232,9 @@ float ScreenFit::mean_of_square(std::size_t column, std::size_t row) const {
 
 PreviewRaster ScreenFit::preview() const {
   PreviewRaster result{columns_, rows_, frame_.step_m * static_cast<double>(pixels_per_square_), {}};
-  result.svf.reserve(sums_.size());
+  result.values.reserve(sums_.size());
   for (std::size_t row = 0; row < rows_; ++row)
-    for (std::size_t column = 0; column < columns_; ++column) result.svf.push_back(mean_of_square(column, row));
+    for (std::size_t column = 0; column < columns_; ++column) result.values.push_back(mean_of_square(column, row));
   return enlarged(result, std::max(wished_preview_edge / std::max({columns_, rows_, std::size_t{1}}), std::size_t{1}));
 }
 
@@ -218,13 +253,32 @@ std::vector<float> shading_of(const std::vector<float>& heights_m, const RasterP
   return static_cast<std::size_t>(shown) * pixels_for_one_that_shows >= shading.size() ? shading : std::vector<float>{};
 }
 
-PlanBackground plan_background(const Package& package, const RasterPlan& plan, std::size_t threads) {
+std::vector<bool> widened(const std::vector<bool>& is_covered, std::size_t columns, std::size_t by) {
+  const std::size_t rows = columns == 0 ? 0 : is_covered.size() / columns;
+  std::vector<bool> wide(is_covered.size());
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      if (!is_covered[row * columns + column]) continue;
+      for (std::size_t r = row - std::min(row, by); r <= std::min(row + by, rows - 1); ++r)
+        for (std::size_t c = column - std::min(column, by); c <= std::min(column + by, columns - 1); ++c)
+          wide[r * columns + c] = true;
+    }
+  return wide;
+}
+
+PlanBackground plan_background(const Package& package, const RasterPlan& plan, std::size_t threads,
+                               bool has_pixels_without_value) {
   RunSettings run;
   run.threads = threads;
   PlanBackground background;
   background.outlines = outlines_of(package, plan, run);
   // Pixels of less than a centimetre, or of more than ten kilometres, show no relief
-  if (0.01 <= plan.step_m && plan.step_m <= 10'000.0) background.shading = shading_of(ground_heights(package, plan, run), plan);
+  if (!has_pixels_without_value || plan.step_m < 0.01 || plan.step_m > 10'000.0) return background;
+  const PlanHeights heights = plan_heights(package, plan, run);
+  background.shading = shading_of(heights.ground_m, plan);
+  constexpr float lowest_roof_m = 0.1F;
+  for (std::size_t n = 0; n < heights.ground_m.size(); ++n)
+    background.is_covered.push_back(heights.highest_m[n] - heights.ground_m[n] > lowest_roof_m);
   return background;
 }
 
@@ -242,19 +296,18 @@ PreviewLayout preview_layout(PixelSize map_size) {
 
 Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background) {
   const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
-  Drawing drawing{layout.picture, title_of(frame.bands.front().name)};
+  const ValueScale scale = drawn_scale(raster, frame);
+  Drawing drawing{layout.picture, scale.title};
   const double left = static_cast<double>(margin), top = static_cast<double>(margin);
   drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(
-      Text{{left, top + static_cast<double>(heading_height)}, subtitle_of(frame), text_height, Alignment::left, muted});
-  drawing.shapes.emplace_back(Image{layout.map, map_of(raster, background.shading)});
+      Text{{left, top + static_cast<double>(heading_height)}, subtitle_of(frame, scale), text_height, Alignment::left, muted});
+  drawing.shapes.emplace_back(Image{layout.map, map_of(raster, scale, background)});
   add_outlines(drawing, layout, background);
-  add_colour_bar(drawing, layout);
+  add_colour_bar(drawing, layout, scale);
   const PagePoint footer = page_point_of(layout.footer);
   add_scale_bar(drawing, footer, raster.metres_per_pixel);
-  const PagePoint legend{footer.x + 230.0, footer.y + 14.0};
-  add_nodata_legend(drawing, legend);
-  add_background_legend(drawing, legend, background);
+  add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, background, greys_of(raster, background));
   add_north_arrow(drawing, {page_point_of(layout.colour_bar).x + 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
   return drawing;
 }
@@ -265,8 +318,10 @@ PreviewWriter::PreviewWriter(const RasterFrame& frame, std::filesystem::path pat
 void PreviewWriter::commit() {
   const PreviewRaster raster = fit_.preview();
   const RasterPlan plan{frame_.north_west_m, raster.metres_per_pixel, raster.columns, raster.rows};
-  const PlanBackground background =
-      frame_.package != nullptr ? plan_background(*frame_.package, plan, frame_.threads) : PlanBackground{};
+  const bool has_gaps = std::ranges::any_of(raster.values, has_no_value);
+  PlanBackground background =
+      frame_.package != nullptr ? plan_background(*frame_.package, plan, frame_.threads, has_gaps) : PlanBackground{};
+  background.is_covered = widened(background.is_covered, plan.columns, (raster.enlarged_by + 1) / 2);
   write_drawing(draw_preview(raster, frame_, background), path_);
 }
 

@@ -16,11 +16,12 @@
 
 namespace farlod {
 
-/// A raster at the size of a picture on a screen. NaN where there is no answer.
+/// A band of a raster at the size of a picture on a screen. NaN where there is no answer.
 struct PreviewRaster {
   std::size_t columns = 0, rows = 0;
   double metres_per_pixel = 1.0;
-  std::vector<float> svf;  ///< row by row from the north
+  std::vector<float> values;    ///< row by row from the north
+  std::size_t enlarged_by = 1;  ///< columns, and rows, that a pixel of the raster has
 };
 
 /// Neither edge of a preview is longer than this.
@@ -57,23 +58,34 @@ struct PlanBackground {
   /// Outlines of roofs, in pixels from the upper left corner of the map. None where there would be more than most_outlines, or
   /// where a building would be smaller than smallest_building pixels: they would hide the map.
   std::vector<Segment> outlines;
-  /// Factors of the lightness of the map's pixels, row by row; empty where no ground rises visibly.
+  /// Factors of the lightness of pixels without a value, row by row; empty where no ground rises visibly.
   std::vector<float> shading;
+  /// Whether a building covers the pixel, row by row; empty where no pixel asks.
+  std::vector<bool> is_covered = {};
 };
+
+/// With all pixels that lie so many columns or rows beside one that is covered, row by row: what has no value has its middle
+/// covered, or most of it, and perhaps not the pixels at its edge.
+[[nodiscard]] std::vector<bool> widened(const std::vector<bool>& is_covered, std::size_t columns, std::size_t by);
+
+/// The greys of pixels without a value: of buildings, which have a roof there, and of all else.
+inline constexpr Colour covered_grey = nodata_colour, no_value_grey{236, 236, 234};
 
 inline constexpr std::size_t most_outlines = 100'000;
 inline constexpr double smallest_building = 2.0;
 
-/// Looks the background of a map up, whose pixels are those of the plan.
-[[nodiscard]] PlanBackground plan_background(const Package& package, const RasterPlan& plan, std::size_t threads);
+/// Looks the background of a map up, whose pixels are those of the plan. Without pixels that have no value, it is outlines alone.
+[[nodiscard]] PlanBackground plan_background(const Package& package, const RasterPlan& plan, std::size_t threads,
+                                             bool has_pixels_without_value = true);
 
 /// How a ground is lit from the north-west, at 45° above the horizon, by its heights: 1 where it is level or unknown, more where
 /// it looks to the light. Empty when it is level everywhere, to the eye.
 [[nodiscard]] std::vector<float> shading_of(const std::vector<float>& heights_m, const RasterPlan& plan);
 
-/// What the background of the largest preview holds: heights and shading of each pixel, outlines on the ground and on the page.
+/// What the background of the largest preview holds: two heights and shading of each pixel, outlines on the ground and
+/// on the page.
 inline constexpr std::size_t bytes_of_largest_background =
-    longest_preview_edge * longest_preview_edge * 2 * sizeof(float) + most_outlines * 3 * (sizeof(PlanSegment) + sizeof(Segment));
+    longest_preview_edge * longest_preview_edge * 3 * sizeof(float) + most_outlines * 3 * (sizeof(PlanSegment) + sizeof(Segment));
 
 /// Where the parts of a preview lie: the title above the map, the colour scale to its right, scale bar and legend below.
 struct PreviewLayout {
@@ -87,8 +99,8 @@ struct PreviewLayout {
 
 [[nodiscard]] PreviewLayout preview_layout(PixelSize map_size);
 
-/// Draws a raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow. Colours are
-/// lightened and darkened as the ground is lit; level ground has those of the scale.
+/// Draws a band of a raster (RasterFrame::drawn_band) as a map with a title, a colour scale, a scale bar in metres and a north
+/// arrow. Pixels without a value are grey: those of buildings, and, lightened and darkened as the ground is lit, all others.
 [[nodiscard]] Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background = {});
 
 /// Draws the raster and writes it as PNG, SVG or PDF, without bounds. What the frame's package knows of buildings and ground is

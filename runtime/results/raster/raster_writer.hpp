@@ -41,6 +41,7 @@ struct RasterFrame {
   std::size_t threads = 1;       ///< of the run; a writer that compresses may use some. They change no byte
   Provenance provenance = {};
   const Package* package = nullptr;  ///< whose outlines and ground a picture shows; none of them where there is none
+  std::size_t drawn_band = 0;        ///< which of the bands a picture shows
 };
 
 /// Writes a raster tile by tile, so that nobody has to hold the whole raster. The file appears with commit(), and not before. A

@@ -26,8 +26,8 @@ struct Change {
 [[maybe_unused]] void all_members_are_known(SvfOptions& o) {
   [[maybe_unused]] auto& [package, output, format, preview_format, verify_format, source, grid_step_m, grid_like, own_pixels,
                           points_file, points_crs, points_layer, surfaces, city_file, at, placing, bbox, mask, evaluation,
-                          sunshine, names_quantities, light_request, preview, verify_file, histogram, projection, memory_limit,
-                          resume, merge, shard, run] = o;
+                          sunshine, names_quantities, drawn_quantity, light_request, preview, verify_file, histogram, projection,
+                          memory_limit, resume, merge, shard, run] = o;
   [[maybe_unused]] auto& [choice, spacing_m, irradiation_threshold] = surfaces;
   [[maybe_unused]] auto& [above, height_m] = placing;
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "results/picture/histogram.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/raster_preview.hpp"
+#include "results/picture/value_scale.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -59,16 +62,16 @@ TEST(PreviewRaster, LargeRastersAreAveraged) {
   EXPECT_EQ(fitted.columns, 1334U);  // 4001 pixels by three
   EXPECT_EQ(fitted.rows, 2U);
   EXPECT_EQ(fitted.metres_per_pixel, 6.0);
-  EXPECT_FLOAT_EQ(fitted.svf[0], (5 * 0.75F + 4 * 0.25F) / 9);
-  EXPECT_FLOAT_EQ(fitted.svf[1], (4 * 0.75F + 5 * 0.25F) / 9);
+  EXPECT_FLOAT_EQ(fitted.values[0], (5 * 0.75F + 4 * 0.25F) / 9);
+  EXPECT_FLOAT_EQ(fitted.values[1], (4 * 0.75F + 5 * 0.25F) / 9);
 }
 
 TEST(PreviewRaster, MostOfASquareDecidesWhetherItHasAnAnswer) {
   WholeRaster raster = raster_of(4000, 2, 0.5F);
   for (const std::size_t n : {0U, 1U, 4000U, 2U, 3U}) raster.svf[n] = std::numeric_limits<float>::quiet_NaN();
   const PreviewRaster fitted = fit_to_screen(raster);
-  EXPECT_TRUE(std::isnan(fitted.svf[0]));  // three of four have none
-  EXPECT_EQ(fitted.svf[1], 0.5F);          // two of four
+  EXPECT_TRUE(std::isnan(fitted.values[0]));  // three of four have none
+  EXPECT_EQ(fitted.values[1], 0.5F);          // two of four
 }
 
 TEST(PreviewRaster, SmallRastersAreEnlarged) {
@@ -76,8 +79,8 @@ TEST(PreviewRaster, SmallRastersAreEnlarged) {
   EXPECT_EQ(fitted.columns, 1000U);
   EXPECT_EQ(fitted.rows, 600U);
   EXPECT_EQ(fitted.metres_per_pixel, 0.01);
-  EXPECT_EQ(fitted.svf[2 * 200], 0.1F);
-  EXPECT_EQ(fitted.svf[599 * 1000 + 999], 0.33333334F);
+  EXPECT_EQ(fitted.values[2 * 200], 0.1F);
+  EXPECT_EQ(fitted.values[599 * 1000 + 999], 0.33333334F);
 }
 
 TEST(PreviewLayout, HoldsAllItsParts) {
@@ -102,22 +105,122 @@ TEST(Preview, DecodesToTheStatedSizeAndColours) {
     return picture.at({layout.map.x + column * 200 + 100, layout.map.y + row * 200 + 100});
   };
   EXPECT_EQ(middle_of(0, 0), colour_of_svf(1.0));
-  EXPECT_EQ(middle_of(1, 0), nodata_colour);
+  EXPECT_EQ(middle_of(1, 0), no_value_grey);
   EXPECT_EQ(middle_of(0, 1), colour_of_svf(0.0));
-  EXPECT_EQ(middle_of(2, 2), nodata_colour);
+  EXPECT_EQ(middle_of(2, 2), no_value_grey);
   EXPECT_EQ(picture.at(layout.colour_bar), colour_of_svf(1.0));
 }
 
-/// Ground that is lit changes a colour, level ground does not, and the grey of no data stays as it is.
-TEST(Preview, LightChangesTheColoursOfSlopes) {
-  const PreviewRaster raster{2, 2, 1.0, {0.5F, 0.5F, 0.5F, std::numeric_limits<float>::quiet_NaN()}};
-  WholeRaster frame = raster_of(2, 2, 0.5F);
-  const Picture picture = drawn(draw_preview(raster, frame, {{}, {1.0F, 0.8F, 1.2F, 0.8F}}));
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+TEST(Preview, LightChangesTheGreyOfGroundAndNoColour) {
+  const PreviewRaster raster{2, 2, 1.0, {0.5F, none, none, none}};
+  const Picture picture =
+      drawn(draw_preview(raster, raster_of(2, 2, 0.5F), {{}, {0.8F, 0.8F, 1.2F, 0.8F}, {false, false, false, true}}));
   const Pixel map = preview_layout({2, 2}).map;
   EXPECT_EQ(picture.at(map), colour_of_svf(0.5));
-  EXPECT_LT(luminance(picture.at({map.x + 1, map.y})), luminance(colour_of_svf(0.5)));
-  EXPECT_GT(luminance(picture.at({map.x, map.y + 1})), luminance(colour_of_svf(0.5)));
-  EXPECT_EQ(picture.at({map.x + 1, map.y + 1}), nodata_colour);
+  EXPECT_LT(luminance(picture.at({map.x + 1, map.y})), luminance(no_value_grey));
+  EXPECT_GT(luminance(picture.at({map.x, map.y + 1})), luminance(no_value_grey));
+  EXPECT_EQ(picture.at({map.x + 1, map.y + 1}), covered_grey);
+}
+
+/// Relative luminances of two greys that are told apart beside each other (WCAG 2.1 asks for 1.3 to 3 of what is read).
+constexpr double least_contrast = 1.3;
+
+TEST(Preview, GreysOfBuildingsAndOfNoDataAreToldApart) {
+  const auto contrast = [](Colour light, Colour dark) { return (luminance(light) + 0.05) / (luminance(dark) + 0.05); };
+  EXPECT_GT(contrast(no_value_grey, covered_grey), least_contrast);
+  // Where the ground is as dark as shading_of() makes it
+  const PreviewRaster raster{2, 1, 1.0, {none, none}};
+  const Picture picture = drawn(draw_preview(raster, raster_of(2, 1, none), {{}, {0.6F, 1.0F}, {false, true}}));
+  const Pixel map = preview_layout({2, 1}).map;
+  EXPECT_GT(contrast(picture.at(map), picture.at({map.x + 1, map.y})), 1.0);
+}
+
+/// The words of a drawing.
+std::vector<std::string> words_in(const Drawing& drawing) {
+  std::vector<std::string> words;
+  for (const auto& shape : drawing.shapes)
+    if (const auto* text = std::get_if<Text>(&shape)) words.push_back(text->words);
+  return words;
+}
+
+TEST(Preview, BuildingsReachToTheEdgesOfTheirPixels) {
+  std::vector<bool> one(35), wide(35);
+  one[2 * 7 + 1] = true;  // of 7 × 5
+  for (const std::size_t row : {1U, 2U, 3U})
+    for (const std::size_t column : {0U, 1U, 2U}) wide[row * 7 + column] = true;
+  EXPECT_EQ(widened(one, 7, 1), wide);
+  EXPECT_EQ(widened(one, 7, 9), std::vector<bool>(35, true));
+  EXPECT_TRUE(widened({}, 7, 1).empty());
+}
+
+TEST(Preview, TheLegendNamesTheGreysThatThereAre) {
+  const auto words = [](std::vector<float> values, const PlanBackground& background) {
+    return words_in(draw_preview({2, 1, 1.0, std::move(values)}, raster_of(2, 1, 0.5F), background));
+  };
+  using testing::Contains, testing::Not;
+  EXPECT_THAT(words({none, none}, {{}, {}, {true, false}}), testing::IsSupersetOf({"buildings", "no data"}));
+  EXPECT_THAT(words({0.5F, none}, {{}, {}, {true, true}}), Not(Contains("no data")));
+  EXPECT_THAT(words({0.5F, none}, {}), Not(Contains("buildings")));
+  const std::string lit_ground = "Ground without data lit from the north-west";
+  EXPECT_THAT(words({0.5F, none}, {{}, {1.0F, 0.8F}, {false, false}}), Contains(lit_ground));
+  EXPECT_THAT(words({0.5F, none}, {{}, {0.8F, 1.0F}, {false, false}}), Not(Contains(lit_ground)));
+  const auto none_at_all = words({0.5F, 0.5F}, {});
+  EXPECT_THAT(none_at_all, Not(testing::AnyOf(Contains("no data"), Contains("buildings"))));
+}
+
+TEST(Preview, ShowsTheDrawnBandOnItsOwnScale) {
+  WholeRaster raster = raster_of(2, 1, 0.25F);
+  raster.bands.push_back({"sunlit_h", "h", "hours"});
+  raster.drawn_band = 1;
+  ScreenFit fit(raster);
+  RasterTile tile({0, 0}, RasterBands::svf, 1);
+  tile.svf[0] = tile.svf[1] = 0.25F;
+  tile.further[0][0] = 4.0F;
+  tile.further[0][1] = 7.93F;
+  fit.add(tile);
+  const PreviewRaster preview = fit.preview();
+  EXPECT_EQ(preview.values.front(), 4.0F);
+  const Drawing drawing = draw_preview(preview, raster);
+  EXPECT_THAT(words_in(drawing), testing::IsSupersetOf({"Sunshine, were the sky clear (sunlit_h)", "Hours. Pixels of 1 m", "h",
+                                                        "0", "2", "4", "6"}));
+  const Picture picture = drawn(drawing);
+  const Pixel map = preview_layout({1000, 500}).map;
+  // The scale ends at 8 h
+  EXPECT_EQ(picture.at({map.x + 100, map.y + 100}), colour_of_svf(0.5));
+  EXPECT_EQ(picture.at({map.x + 900, map.y + 100}), colour_of_svf(static_cast<double>(7.93F) / 8.0));
+}
+
+TEST(ValueScale, SharesEndAtOneAndOtherValuesAtTheirGreatest) {
+  EXPECT_EQ(scale_of({"svf_total", "1", ""}, 0.3).end, 1.0);
+  EXPECT_EQ(scale_of({"svf_total", "1", ""}, 0.3).title, "Sky view factor with trees (svf_total)");
+  EXPECT_EQ(scale_of({"svfN", "1", ""}, 0.3).title, "svfN");
+  EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).end, 1300.0);
+  EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1300.0).end, 1300.0);
+  EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).unit, "kWh/m²");
+  EXPECT_EQ(scale_of({"sunlit_h", "h", ""}, 0.0).end, 1.0);
+}
+
+TEST(ValueScale, HasTicksThatPeopleRead) {
+  const auto ticks = [](double max_value) {
+    std::vector<std::string> texts;
+    const ValueScale scale = scale_of({"sunlit_h", "h", ""}, max_value);
+    for (const double tick : scale.ticks()) texts.push_back(tick_text(tick, scale.step()));
+    return texts;
+  };
+  EXPECT_THAT(ticks(12.58), testing::ElementsAre("0", "5", "10"));
+  EXPECT_THAT(ticks(4283.0), testing::ElementsAre("0", "1000", "2000", "3000", "4000"));
+  EXPECT_THAT(ticks(0.0), testing::ElementsAre("0.0", "0.2", "0.4", "0.6", "0.8", "1.0"));
+  EXPECT_THAT(ticks(0.037), testing::ElementsAre("0.00", "0.01", "0.02", "0.03"));
+}
+
+TEST(TickStep, IsTheLeastThatGivesFewSteps) {
+  EXPECT_DOUBLE_EQ(tick_step(10.0, 5), 2.0);
+  EXPECT_DOUBLE_EQ(tick_step(10.1, 5), 5.0);
+  EXPECT_DOUBLE_EQ(tick_step(0.25, 5), 0.05);
+  EXPECT_DOUBLE_EQ(tick_step(7.0, 7), 1.0);
+  EXPECT_DOUBLE_EQ(tick_step(99.0, 10), 10.0);
 }
 
 TEST(Preview, OutlinesAreDarkLinesOfTheMap) {
@@ -257,10 +360,11 @@ TEST(Histogram, BarsAreAsHighAsTheirShares) {
   series[0].counts.add(0.51, 5.0);
   series[1].counts.add(0.11, 0.25);
   series[1].counts.add(0.31, 0.75);
-  ASSERT_DOUBLE_EQ(highest_share(series), 1.0);
+  const double highest = highest_share(series);
+  ASSERT_DOUBLE_EQ(highest, 0.8);
   const Picture picture = drawn(draw_histogram(series, {"svf", "Share of the area"}));
   const auto at = [&](double value, double share) {
-    const PagePoint p = histogram_point(value, share, 1.0);
+    const PagePoint p = histogram_point(value, share, highest);
     return picture.at({static_cast<std::size_t>(p.x), static_cast<std::size_t>(p.y)});
   };
   // Bars of roofs are in the left half of their bins, and those of walls in the right one
@@ -271,6 +375,19 @@ TEST(Histogram, BarsAreAsHighAsTheirShares) {
   EXPECT_EQ(at(0.907, 0.08), colour_of_series(0));
   EXPECT_EQ(at(0.907, 0.12), (Colour{255, 255, 255}));
   EXPECT_EQ(at(0.313, 0.73), colour_of_series(1));
+}
+
+TEST(Histogram, TheAxisEndsNearItsTallestBar) {
+  const auto highest = [](double share) {
+    std::vector<HistogramSeries> series{{"pixels", "100", {}}};
+    series[0].counts.add(0.11, share);
+    for (int n = 0; n < 40; ++n) series[0].counts.add(0.2 + 0.02 * n, (1.0 - share) / 40.0);
+    return highest_share(series);
+  };
+  EXPECT_DOUBLE_EQ(highest(0.21), 0.25);
+  EXPECT_DOUBLE_EQ(highest(0.41), 0.5);
+  EXPECT_DOUBLE_EQ(highest(0.06), 0.06);
+  EXPECT_DOUBLE_EQ(highest(1.0), 1.0);
 }
 
 TEST(Histogram, OfNoValuesIsDrawn) {

@@ -324,8 +324,8 @@ TEST(CellPicture, SaysWhereThereIsNoFarMap) {
 /// 400 × 300 pixels of half a metre, of which the eastern half has the value 1.
 GreyMap half_a_map() {
   GreyMap map{{1000.0, 2000.0}, {400, 300, 0.5, std::vector<float>(std::size_t{400} * 300, NAN)}};
-  for (std::size_t n = 0; n < map.raster.svf.size(); ++n)
-    if (n % 400 >= 200) map.raster.svf[n] = 1.0F;
+  for (std::size_t n = 0; n < map.raster.values.size(); ++n)
+    if (n % 400 >= 200) map.raster.values[n] = 1.0F;
   return map;
 }
 
