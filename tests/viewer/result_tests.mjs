@@ -132,7 +132,7 @@ export const resultTests = {
   async "irradiation has its unit in the legend and beside its values"({ url, context }) {
     const page = await above(context, url, "ground=computed&buildings=10&dots=", "roofs");
     expectEqual(await page.textContent("#ramp-title"), "year.surfaces.csv: irradiation_mean, kWh/m²", "the title of the legend");
-    expectEqual(await ticksOf(page), ["0", "250", "500", "750", "1000", "1250"], "the ticks");
+    expectEqual(await ticksOf(page), ["0", "200", "400", "600", "800", "1000", "1200"], "the ticks");
     expect((await covered(page, west, await colourOf(url, 0.5))) > 0.2, "625 of 1,250 is not in the middle of the colours");
     const roof = await seen(() => roofIn(page), (facts) => facts.length > 0);
     expectEqual(roof, ["year.surfaces.csv: irradiation_mean", "625 kWh/m²"], "what is told");
