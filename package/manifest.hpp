@@ -181,6 +181,7 @@ struct Manifest {
   FarMapShape far_map;
   std::vector<InputFile> inputs;
   std::uint64_t buildings = 0, polygons = 0, triangles = 0;
+  std::optional<Box2d> buildings_projected = {};              ///< around all points of the buildings, where there are any
   std::vector<std::pair<int, std::uint64_t>> problem_counts;  ///< by code, ascending
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
   std::optional<CanopyFile> canopy = {};                      ///< where there are crowns
@@ -199,6 +200,15 @@ struct Manifest {
     for (const BlockFiles& b : blocks)
       count += b.mapped ? b.mapped->size() : static_cast<std::uint64_t>(grid.cells_of(b.block).size());
     return count;
+  }
+  /// Where the city is, for whoever says no part of it: the pixels of its raster; else its buildings, and 50 m around them; else,
+  /// of a bare terrain and of packages that do not tell their buildings' box, all cells.
+  [[nodiscard]] Box2d city_projected() const {
+    if (pixels) {
+      const Point2d corner = pixels->north_west_m;
+      return {{corner.x, corner.y - pixels->rows * pixels->step_m}, {corner.x + pixels->columns * pixels->step_m, corner.y}};
+    }
+    return buildings_projected ? grown(*buildings_projected, 50.0) : projected_outline(grid.rectangle());
   }
   /// Between the grid frame and the output CRS; heights are the same in both.
   [[nodiscard]] Point3d projected_from_grid(const Point3d& p_grid) const {
@@ -295,6 +305,8 @@ struct ManifestSeal {
   d.crs_name = m.crs_name;
   d.epsg = m.epsg;
   d.outline_projected = m.projected_outline(m.grid.rectangle());
+  d.city_projected = m.city_projected();
+  d.buildings_projected = m.buildings_projected;
   d.grid_bearing = m.grid.rotation.bearing();
   d.convergence = m.convergence;
   d.cell_edge_m = m.grid.cell_edge_m;

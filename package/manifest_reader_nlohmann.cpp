@@ -199,11 +199,19 @@ void require_some_of(const std::optional<CellRuns>& mapped, std::int64_t cell_co
   require(std::cmp_less(mapped->size(), cell_count), "it lists all cells of a block where some are to be listed");
 }
 
+Box2d box_from(const json& j) {
+  const Box2d box{{j.at(0).get<double>(), j.at(1).get<double>()}, {j.at(2).get<double>(), j.at(3).get<double>()}};
+  require(!box.empty() && norm(box.low) <= 2.0 * farthest_origin_m && norm(box.high) <= 2.0 * farthest_origin_m,
+          "the box of its buildings is impossible");
+  return box;
+}
+
 void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   for (const json& input : j.at("inputs")) m.inputs.push_back({input.at("name").get<std::string>(), stamp_from(input)});
   m.buildings = whole_number<std::uint64_t>(j.at("counts").at("buildings"));
   m.polygons = whole_number<std::uint64_t>(j.at("counts").at("polygons"));
   m.triangles = whole_number<std::uint64_t>(j.at("counts").at("triangles"));
+  if (j.contains("buildings_box_m")) m.buildings_projected = box_from(j.at("buildings_box_m"));
   for (const auto& [code, count] : j.at("problems").items())
     m.problem_counts.emplace_back(number_from<int>(code, 10), whole_number<std::uint64_t>(count));
   const bool may_lack_crowns = version > canopy_format_version && !j.contains("canopy");

@@ -90,6 +90,7 @@ std::string manifest_text(const Manifest& m) {
   j["settings"] = {{"assign", m.assign}, {"far_map", json_of(m.far_map)}};
   j["inputs"] = inputs_of(m);
   j["counts"] = {{"buildings", m.buildings}, {"polygons", m.polygons}, {"triangles", m.triangles}};
+  if (const auto& box = m.buildings_projected) j["buildings_box_m"] = {box->low.x, box->low.y, box->high.x, box->high.y};
   j["problems"] = Json::object();
   for (const auto& [code, count] : m.problem_counts) j["problems"][std::to_string(code)] = count;
   j["blocks"] = Json::array();

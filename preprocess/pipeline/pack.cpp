@@ -50,6 +50,9 @@ package::Manifest manifest_of(const ReadCity& city, const StageSettings& setting
   m.far_map = shape_of(city.far_map);
   m.inputs = inputs_of(origin);
   m.pixels = own_pixels_of(city);
+  Box2d box;
+  for (const Point3d& p_city : city.located.city.points()) box.add(place.origin_m + horizontal(p_city));
+  if (!box.empty()) m.buildings_projected = box;
   return m;
 }
 

@@ -53,6 +53,9 @@ package::SurfacePixels pixels_from(const Json& j) {
   return pixels;
 }
 
+Json json_of(const Box2d& box) { return {box.low.x, box.low.y, box.high.x, box.high.y}; }
+Box2d box_from(const Json& j) { return {{j.at(0), j.at(1)}, {j.at(2), j.at(3)}}; }
+
 Json json_of(const package::Manifest& m) {
   Json inputs = Json::array();
   for (const package::InputFile& i : m.inputs) inputs.push_back({i.name, i.stamp.bytes, i.stamp.xxh3});
@@ -65,6 +68,7 @@ Json json_of(const package::Manifest& m) {
           {"far_map", json_of(m.far_map)},
           {"inputs", inputs},
           {"counts", {m.buildings, m.polygons, m.triangles}},
+          {"buildings_box", m.buildings_projected ? json_of(*m.buildings_projected) : Json()},
           {"problems", m.problem_counts},
           {"canopy", m.canopy ? json_of(*m.canopy) : Json()},
           {"sources", json_of(m.sources)},
@@ -88,6 +92,7 @@ package::Manifest manifest_from(const Json& j) {
   m.buildings = counts.at(0);
   m.polygons = counts.at(1);
   m.triangles = counts.at(2);
+  if (const Json& box = j.at("buildings_box"); !box.is_null()) m.buildings_projected = box_from(box);
   j.at("problems").get_to(m.problem_counts);
   if (const Json& canopy = j.at("canopy"); !canopy.is_null()) m.canopy = canopy_from(canopy);
   m.sources = stamp_from(j.at("sources"));

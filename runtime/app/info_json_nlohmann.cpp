@@ -100,11 +100,13 @@ Json cell_json(const CellContents& c) {
 Json json_of(const PackageFacts& facts) {
   const PackageDescription& d = facts.description;
   const PackageInventory& i = facts.inventory;
-  const auto& [low, high] = d.outline_projected;
+  const auto json_of_box = [](const Box2d& b) { return Json{b.low.x, b.low.y, b.high.x, b.high.y}; };
   Json json = {{"format_version", i.format_version},
                {"software", d.software},
                {"crs", crs_json(d)},
-               {"extent_m", {low.x, low.y, high.x, high.y}},
+               {"extent_m", json_of_box(d.outline_projected)},
+               {"city_m", json_of_box(d.city_projected)},
+               {"buildings_m", d.buildings_projected ? json_of_box(*d.buildings_projected) : Json(nullptr)},
                {"grid", grid_json(facts)},
                {"buildings", d.buildings},
                {"polygons", d.polygons},

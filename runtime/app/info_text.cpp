@@ -34,11 +34,16 @@ std::string counted(std::uint64_t count, const std::string& one, const std::stri
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
+std::string text_of(const Box2d& box) {
+  const auto& [low, high] = box;
+  return fmt::format("{:.1f}, {:.1f} to {:.1f}, {:.1f} ({:.0f} m × {:.0f} m)", low.x, low.y, high.x, high.y, high.x - low.x,
+                     high.y - low.y);
+}
+
 void add_place(const PackageDescription& d, AlignedText& text) {
-  const auto& [low, high] = d.outline_projected;
   text.add("CRS", crs_text(d));
-  text.add("Extent", fmt::format("{:.1f}, {:.1f} to {:.1f}, {:.1f} ({:.0f} m × {:.0f} m)", low.x, low.y, high.x, high.y,
-                                 high.x - low.x, high.y - low.y));
+  if (d.buildings_projected) text.add("Buildings", text_of(*d.buildings_projected));
+  text.add("Extent", text_of(d.outline_projected) + ", all cells");
   text.add("Streets", fmt::format("bearing {:.2f}° from true north, {:.2f}° from grid north (convergence {:+.2f}°)",
                                   (d.grid_bearing + d.convergence).degrees(), d.grid_bearing.degrees(), d.convergence.degrees()));
 }

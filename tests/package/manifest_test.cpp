@@ -193,6 +193,27 @@ TEST(Package, ManifestOfABlockWithoutFarMaps) {
   EXPECT_EQ(package::folder_of(read_manifest(small.folder()).blocks[0]), "blocks/0_0_0");
 }
 
+TEST(Package, ManifestTellsTheBoxOfTheBuildings) {
+  const SmallPackage small;
+  json m = small.manifest();
+  m.erase("buildings_box_m");
+  small.write_manifest(m);
+  package::Manifest read = read_manifest(small.folder());
+  EXPECT_EQ(read.buildings_projected, std::nullopt);
+  EXPECT_EQ(read.city_projected(), read.projected_outline(read.grid.rectangle()));
+  m["buildings_box_m"] = {10.0, 20.0, 30.5, 41.0};
+  small.write_manifest(m);
+  read = read_manifest(small.folder());
+  EXPECT_EQ(read.city_projected(), (Box2d{{-40.0, -30.0}, {80.5, 91.0}}));
+  EXPECT_EQ(manifest_from_text(manifest_text(read), "again").buildings_projected, read.buildings_projected);
+  read.pixels = package::SurfacePixels{{100.0, 200.0}, 2.0, 10, 5};
+  EXPECT_EQ(read.city_projected(), (Box2d{{100.0, 190.0}, {120.0, 200.0}}));
+  for (const char* box : {"[10, 20, 9, 41]", "[10, 20, 30, 19]", "[0, 0, 3e9, 1]", "[-3e9, 0, 0, 1]", "[1, 2, 3]", "\"all\""}) {
+    m["buildings_box_m"] = json::parse(box);
+    EXPECT_NE(damage_of(small, m), "no damage") << box;
+  }
+}
+
 TEST(Package, ManifestOfImpossibleFarMaps) {
   const SmallPackage small;
   ASSERT_EQ(damage_of(small, partial_manifest(small, {{0, 1}})), "no damage");
