@@ -161,6 +161,7 @@ struct EvaluationSummary {
   /// traced them against the whole city.
   std::size_t without_far_map = 0;
   std::optional<double> svf_min, svf_mean, svf_max;
+  std::optional<double> svf_median;  ///< within .00005
   std::optional<BoundsWidth> bounds;
   std::uint64_t by_rays = 0;        ///< receivers that rays answered, or for which bounds needed the whole city
   std::uint64_t retraced_rays = 0;  ///< rays and parts of the sky (wedges) that the whole city decided (max_error)

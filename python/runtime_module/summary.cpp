@@ -34,7 +34,7 @@ py::dict summary_dict(const EvaluationSummary& run) {
       "rays_traced_exactly"_a = run.retraced_rays,
       "seconds"_a =
           py::dict("scenes"_a = run.seconds.scenes, "evaluate"_a = run.seconds.evaluate, "deliver"_a = run.seconds.deliver),
-      "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "max"_a = run.svf_max));
+      "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "median"_a = run.svf_median, "max"_a = run.svf_max));
   if (run.bounds) summary["bounds"] = dict_of(*run.bounds);
   if (run.svf_total)
     summary["svf_total"] = py::dict("min"_a = run.svf_total->min, "mean"_a = run.svf_total->mean, "max"_a = run.svf_total->max);

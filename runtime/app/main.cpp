@@ -284,7 +284,9 @@ WrittenRun evaluate(SvfOptions options) {
 }
 
 void print_values(const EvaluationSummary& run, const std::string& quantity) {
-  if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
+  if (run.svf_mean)
+    fmt::print("{}: min {:.4f}, mean {:.4f}, median {:.3f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_median,
+               *run.svf_max);
   if (run.svf_total)
     fmt::print("svf_total: min {:.4f}, mean {:.4f}, max {:.4f}\n", run.svf_total->min, run.svf_total->mean, run.svf_total->max);
   if (run.svf_mean && *run.svf_min == *run.svf_max && run.receivers > 100)

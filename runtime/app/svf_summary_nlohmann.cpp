@@ -70,24 +70,30 @@ void add_errors_and_totals(const EvaluationSummary& run, Json& j) {
   if (run.svf_total_errors) j["svf_total_verify"] = json_of(*run.svf_total_errors);
 }
 
+Json values_json(const EvaluationSummary& run) {
+  return {{"min", number_or_null(run.svf_min)},
+          {"mean", number_or_null(run.svf_mean)},
+          {"median", number_or_null(run.svf_median)},
+          {"max", number_or_null(run.svf_max)}};
+}
+
 }  // namespace
 
 std::string svf_summary_json(const WrittenRun& written, const SvfOptions& options, double total_seconds) {
   const EvaluationSummary& run = written.summary;
   const double busy_s = run.seconds.scenes + run.seconds.evaluate;
-  Json j = {
-      {"receivers", run.receivers},
-      {"nodata", run.no_data + run.beyond_grid},
-      {"engine", word_for(engine_words, options.evaluation.engine)},
-      {"seconds", seconds_json(written, total_seconds)},
-      {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
-      {"rays", run.accuracy.rays},
-      {"azimuths", run.accuracy.azimuths},
-      {"receivers_by_rays", run.by_rays},
-      {"receivers_without_far_map", run.without_far_map},
-      {"peak_memory_mib", peak_memory_mib()},
-      {"svf",
-       {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
+  Json j = {{"receivers", run.receivers},
+            {"nodata", run.no_data + run.beyond_grid},
+            {"engine", word_for(engine_words, options.evaluation.engine)},
+            {"seconds", seconds_json(written, total_seconds)},
+            {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
+            {"rays", run.accuracy.rays},
+            {"azimuths", run.accuracy.azimuths},
+            {"receivers_by_rays", run.by_rays},
+            {"receivers_without_far_map", run.without_far_map},
+            {"receivers_outside_of_grid", run.outside_of_grid},
+            {"peak_memory_mib", peak_memory_mib()},
+            {"svf", values_json(run)}};
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   if (written.light) j["light"] = json_of(*written.light, *options.evaluation.further.light, *options.light);
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);

@@ -21,6 +21,7 @@
 #include "farlod/error.hpp"
 #include "run/kept_answers.hpp"
 #include "run/memory_limit.hpp"
+#include "run/svf_statistics.hpp"
 
 namespace farlod {
 namespace {
@@ -28,67 +29,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Statistics of the sky view factors of some cells, with crowns or without. Sums are added cell by cell, in order, so that the
-/// mean does not depend on the number of threads.
-struct SvfStatistics {
-  std::size_t count = 0;
-  double sum = 0.0;
-  float min = 1.0F, max = 0.0F;
-  double width_sum = 0.0;
-  float width_max = 0.0F;
-
-  void add(float svf) {
-    ++count;
-    sum += svf;
-    min = std::min(min, svf);
-    max = std::max(max, svf);
-  }
-  void add_width(float width) {
-    width_sum += width;
-    width_max = std::max(width_max, width);
-  }
-  [[nodiscard]] BoundsWidth width() const { return {width_sum / static_cast<double>(count), width_max}; }
-  void add(const SvfStatistics& o) {
-    *this = {count + o.count,         sum + o.sum,
-             std::min(min, o.min),    std::max(max, o.max),
-             width_sum + o.width_sum, std::max(width_max, o.width_max)};
-  }
-};
-
-SvfStatistics statistics_of(const SvfValues& values) {
-  SvfStatistics statistics;
-  for (const float svf : values.svf) statistics.add(svf);
-  for (std::size_t n = 0; n < values.low.size(); ++n) statistics.add_width(values.high[n] - values.low[n]);
-  return statistics;
-}
-
-/// The statistics of the total sky view factors among the further values, where they are.
-SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further) {
-  SvfStatistics statistics;
-  const TotalColumns columns = total_columns_of(further);
-  for (std::size_t n = 0; n < values.svf.size() && columns.total; ++n) {
-    const std::span<const float> row = values.further_of(n);
-    statistics.add(row[*columns.total]);
-    if (columns.low) statistics.add_width(row[*columns.low + 1] - row[*columns.low]);
-  }
-  return statistics;
-}
-
-void store_statistics(const SvfStatistics& all, bool bounds, EvaluationSummary& run) {
-  run.receivers = all.count;
-  if (all.count == 0) return;
-  run.svf_min = all.min;
-  run.svf_max = all.max;
-  run.svf_mean = all.sum / static_cast<double>(all.count);
-  if (bounds) run.bounds = all.width();
-}
-
-void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run) {
-  if (all.count == 0) return;
-  run.svf_total = {all.min, all.sum / static_cast<double>(all.count), all.max};
-  if (further.svf_total_bounds) run.svf_total_bounds = all.width();
-}
 
 /// A cell that is being evaluated, or waits for its turn to be stored.
 struct CellInFlight {
@@ -137,6 +77,7 @@ void require_bounds_known(const PackageInUse& package, const ResolvedSettings& s
 struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
   SvfStatistics statistics, totals;
+  SvfDistribution distribution;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
   RayCounts rays;
   double store_s = 0.0;
@@ -144,6 +85,7 @@ struct Tally {
   void add(const PackageReader& package, const Quantities& further, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
     statistics.add(statistics_of(cell.values));
+    distribution.add(cell.values.svf);
     totals.add(total_statistics_of(cell.values, further));
     outside_of_region += cell.receivers.outside_of_region;
     rays.by_rays += cell.values.counts.by_rays;
@@ -235,7 +177,7 @@ EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSetting
   summary.accuracy = settings.accuracy;
   summary.by_rays = tally.rays.by_rays;
   summary.retraced_rays = tally.rays.retraced_rays;
-  store_statistics(tally.statistics, settings.bounds, summary);
+  store_statistics(tally.statistics, tally.distribution, settings.bounds, summary);
   store_statistics_of_totals(tally.totals, settings.sky.further, summary);
   return summary;
 }
@@ -256,7 +198,7 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   summary.without_far_map = tally.without_far_map;
   summary.by_rays = tally.rays.by_rays;
   summary.retraced_rays = tally.rays.retraced_rays;
-  store_statistics(tally.statistics, settings.bounds, summary);
+  store_statistics(tally.statistics, tally.distribution, settings.bounds, summary);
   store_statistics_of_totals(tally.totals, settings.sky.further, summary);
   if (settings.verify > 0) {
     Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, cells);

@@ -266,8 +266,10 @@ TEST_F(PackedTown, SummaryOfSvfCountsPixels) {
 TEST_F(PackedTown, SummaryTellsTheFiguresOfTheMap) {
   folder.must("farlod-svf a.farlod -o o.asc --grid 10 --summary s.json");
   double low = 1.0, high = 0.0, sum = 0.0, count = 0.0;
+  std::vector<double> all;
   for (const auto& value : raster("o.asc").values) {
     if (!value) continue;
+    all.push_back(*value);
     low = std::min(low, *value);
     high = std::max(high, *value);
     sum += *value;
@@ -278,6 +280,8 @@ TEST_F(PackedTown, SummaryTellsTheFiguresOfTheMap) {
   EXPECT_NEAR(svf.at("min"), low, rounding);
   EXPECT_NEAR(svf.at("max"), high, rounding);
   EXPECT_NEAR(svf.at("mean"), sum / count, rounding);
+  std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>((all.size() - 1) / 2));
+  EXPECT_NEAR(svf.at("median"), all[(all.size() - 1) / 2], 5e-5 + rounding);
 }
 
 TEST_F(PackedTown, SummaryNamesTheEngine) {

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/svf_statistics.hpp"
+
+#include "evaluate/quantity_table.hpp"
+
+namespace farlod {
+
+void SvfDistribution::add(std::span<const float> values) {
+  constexpr auto last = static_cast<float>(parts - 1);
+  for (const float value : values) ++counts_[static_cast<std::size_t>(std::clamp(value * static_cast<float>(parts), 0.0F, last))];
+}
+
+double SvfDistribution::median() const {
+  std::uint64_t all = 0;
+  for (const std::uint64_t count : counts_) all += count;
+  std::size_t part = 0;
+  for (std::uint64_t before = counts_[0]; 2 * before < all; before += counts_[part]) ++part;
+  return (static_cast<double>(part) + 0.5) / static_cast<double>(parts);
+}
+
+SvfStatistics statistics_of(const SvfValues& values) {
+  SvfStatistics statistics;
+  for (const float svf : values.svf) statistics.add(svf);
+  for (std::size_t n = 0; n < values.low.size(); ++n) statistics.add_width(values.high[n] - values.low[n]);
+  return statistics;
+}
+
+SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further) {
+  SvfStatistics statistics;
+  const TotalColumns columns = total_columns_of(further);
+  for (std::size_t n = 0; n < values.svf.size() && columns.total; ++n) {
+    const std::span<const float> row = values.further_of(n);
+    statistics.add(row[*columns.total]);
+    if (columns.low) statistics.add_width(row[*columns.low + 1] - row[*columns.low]);
+  }
+  return statistics;
+}
+
+void store_statistics(const SvfStatistics& all, const SvfDistribution& values, bool bounds, EvaluationSummary& run) {
+  run.receivers = all.count;
+  if (all.count == 0) return;
+  run.svf_min = all.min;
+  run.svf_max = all.max;
+  run.svf_mean = all.sum / static_cast<double>(all.count);
+  run.svf_median = values.median();
+  if (bounds) run.bounds = all.width();
+}
+
+void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run) {
+  if (all.count == 0) return;
+  run.svf_total = {all.min, all.sum / static_cast<double>(all.count), all.max};
+  if (further.svf_total_bounds) run.svf_total_bounds = all.width();
+}
+
+}  // namespace farlod
