@@ -29,8 +29,8 @@ struct RasterPlan {
   }
 };
 
-/// The raster over `part` (projected), or over all cells of the package. Pixels begin at multiples of the step (0.01 to 10,000
-/// m), so that rasters of neighboring runs fit together. Throws InvalidArgument.
+/// The raster over `part` (projected), or over the city (PackageDescription::city_projected). Pixels begin at multiples of the
+/// step (0.01 to 10,000 m), so that rasters of neighboring runs fit together. Throws InvalidArgument.
 [[nodiscard]] FARLOD_EXPORT RasterPlan plan_raster(const Package& package, double step_m, const std::optional<Box2d>& part = {});
 
 /// The pixels of the raster that the city is, if it is one (PackSettings::inputs), as they were packed; those that meet `part`
@@ -83,7 +83,9 @@ struct Raster {
   EvaluationSummary summary;
 };
 
-/// Evaluates the sky view factors of a raster's pixels: tile by tile, for rasters of any size, or as a whole. Throws
+/// Evaluates the sky view factors of a raster's pixels: tile by tile, for rasters of any size, or as a whole. Of a raster that
+/// meets the city, pixels beyond the grid have answers as points have them, up to 200 m from the north-up rectangle around it,
+/// where the scene of the whole city takes no more than 1 GiB. Throws
 /// InvalidArgument, Cancelled, LimitReached, PackageUnusable, PackageDamaged.
 FARLOD_EXPORT EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
                                                 const EvaluationSettings& settings, const OnRasterTile& on_tile,

@@ -129,9 +129,9 @@ py::dict description_of(const Package& package) {
   const PackageInventory inventory = inventory_of(package);
   py::list inputs;
   for (const PackedInput& input : inventory.inputs) inputs.append(input.name);
+  const auto box_in_python = [](const Box2d& b) { return BboxInPython{b.low.x, b.low.y, b.high.x, b.high.y}; };
   return py::dict("software"_a = d.software, "crs_wkt"_a = d.crs_wkt, "crs_name"_a = d.crs_name, "epsg"_a = d.epsg,
-                  "bounds_m"_a = BboxInPython{d.outline_projected.low.x, d.outline_projected.low.y, d.outline_projected.high.x,
-                                              d.outline_projected.high.y},
+                  "bounds_m"_a = box_in_python(d.outline_projected), "city_m"_a = box_in_python(d.city_projected),
                   "grid_bearing_deg"_a = d.grid_bearing.degrees(), "convergence_deg"_a = d.convergence.degrees(),
                   "cell_edge_m"_a = d.cell_edge_m, "neighborhood"_a = d.neighborhood, "columns"_a = d.columns, "rows"_a = d.rows,
                   "far_map_kind"_a = d.far_map_kind, "cells_with_far_map"_a = d.cells_with_far_map, "buildings"_a = d.buildings,

@@ -19,7 +19,7 @@ namespace {
 RasterPlan plan_of(const Package& package) {
   const Box2d& all = package.description().outline_projected;
   const double longer_m = std::max(all.high.x - all.low.x, all.high.y - all.low.y);
-  return plan_raster(package, longer_m / static_cast<double>(wished_preview_edge));
+  return plan_raster(package, longer_m / static_cast<double>(wished_preview_edge), all);
 }
 
 GridLines grid_of(const Package& package, const PackageFacts& facts) {

@@ -105,7 +105,10 @@ void add_placing_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
                  "CRS of --points or --along, as EPSG:n (default: the file's own, or the package's)")
       ->group("Placing");
   app.add_option("--points-layer", o.points_layer, "Layer of --points or --along (default: its only one)")->group("Placing");
-  app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only receivers in this box, in the package's CRS")->group("Placing");
+  app.add_option("--bbox", raw.bbox,
+                 "X0,Y0,X1,Y1: only receivers in this box, in the package's CRS. Or city: the buildings and 50 m around them, as "
+                 "--grid has it by default; or grid: all cells")
+      ->group("Placing");
   app.add_option("--mask", raw.mask, "Only receivers in the polygons of this vector file")
       ->type_name(file_value)
       ->group("Placing");
@@ -205,6 +208,19 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
   }
 }
 
+/// The box that --bbox says, in numbers or by what it is around.
+Box2d box_of(const std::string& text, const std::filesystem::path& package) {
+  if (text == "city") return Package(package).description().city_projected;
+  if (text == "grid") return Package(package).description().outline_projected;
+  const auto n = numbers_in(text, "--bbox", "X0,Y0,X1,Y1");
+  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
+    throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+  constexpr double farthest_m = 1e8;  // no map is as large
+  for (const double x : n)
+    if (std::abs(x) > farthest_m) throw CLI::ValidationError("--bbox", fmt::format("{:g} lies nowhere on Earth", x));
+  return {{n[0], n[1]}, {n[2], n[3]}};
+}
+
 /// Which of the receivers are asked for.
 void resolve_part(const RawOptions& raw, SvfOptions& o) {
   o.mask_file = raw.mask;
@@ -213,15 +229,9 @@ void resolve_part(const RawOptions& raw, SvfOptions& o) {
   if (raw.bbox.empty()) return;
   if (!raw.grid_like.empty())
     throw CLI::ValidationError("--bbox", "the raster of --grid-like says where its pixels are: give one of the two");
-  const auto n = numbers_in(raw.bbox, "--bbox", "X0,Y0,X1,Y1");
-  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
-    throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+  o.bbox_projected = box_of(raw.bbox, o.package);
   if (o.source != ReceiverSource::grid && !raw.mask.empty())
     throw CLI::ValidationError("--bbox", "with --mask it goes with --grid only: give one of the two");
-  o.bbox_projected = Box2d{{n[0], n[1]}, {n[2], n[3]}};
-  constexpr double farthest_m = 1e8;  // no map is as large
-  for (const double x : n)
-    if (std::abs(x) > farthest_m) throw CLI::ValidationError("--bbox", fmt::format("{:g} lies nowhere on Earth", x));
 }
 
 /// A picture is a map of --grid, or the sky above --at.

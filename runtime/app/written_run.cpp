@@ -229,7 +229,7 @@ std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine
 void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city) {
   if (summary.receivers > 0) return;
   constexpr const char* nothing = "No receiver has an answer, and nothing was written";
-  const Box2d& box = city.outline_projected;
+  const Box2d& box = city.city_projected;
   const std::string place = fmt::format("The city lies from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.", box.low.x,
                                         box.low.y, box.high.x, box.high.y, city.crs_name, option_of_place(options));
   const std::size_t beyond = summary.beyond_grid + summary.outside_of_region;

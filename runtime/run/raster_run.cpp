@@ -16,6 +16,7 @@
 #include "run/memory_limit.hpp"
 #include "run/open_tiles.hpp"
 #include "run/ordered_run.hpp"
+#include "run/svf_statistics.hpp"
 
 namespace farlod {
 namespace {
@@ -41,6 +42,13 @@ void require_usable(const Box2d& part, double step_m) {
     throw InvalidArgument("the part of the raster is empty: its low corner must lie south-west of its high corner");
   if ((part.high.x - part.low.x) / step_m * ((part.high.y - part.low.y) / step_m) > most_pixels)
     throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
+}
+
+/// Beyond the grid there are no far maps, and the whole city hides the sky: pixels there have answers where it takes no more than
+/// a small part of a machine. It depends on the package alone.
+BeyondGrid beyond_grid_of(const package::Manifest& manifest) {
+  constexpr double most_bytes = 1 << 30;
+  return bytes_of_whole_scene(manifest) <= most_bytes ? BeyondGrid::is_answered : BeyondGrid::is_left_out;
 }
 
 TileRange tiles_over(const PixelRange& pixels) {
@@ -122,7 +130,7 @@ class RasterRun {
         placing_(resolved(placing)),
         package_(package),
         plan_(checked(plan)),
-        receivers_(reader().manifest(), plan, settings_.region.get()),
+        receivers_(reader().manifest(), plan, settings_.region.get(), beyond_grid_of(reader().manifest())),
         cells_(along_hilbert_curve(receivers_.cells(), reader().grid().block_edge)),
         tiles_(tiles_of_cells(receivers_, cells_)),
         further_bands_(columns_of(settings_.sky.further).size()) {
@@ -204,6 +212,13 @@ std::pair<std::size_t, ValueRange> range_of(const std::vector<float>& values) {
   return {count, range};
 }
 
+double median_of(std::vector<float> values) {
+  std::erase_if(values, [](float value) { return std::isnan(value); });
+  SvfDistribution distribution;
+  distribution.add(values);
+  return distribution.median();
+}
+
 /// Pixels of a window of a raster, and how their answers are stored.
 class WindowAnswers {
  public:
@@ -232,8 +247,9 @@ class WindowAnswers {
   [[nodiscard]] Raster take(EvaluationSummary summary) {
     const auto [count, svf] = range_of(raster_.svf);
     summary.receivers = count;
-    summary.svf_min = summary.svf_mean = summary.svf_max = std::nullopt;
+    summary.svf_min = summary.svf_mean = summary.svf_max = summary.svf_median = std::nullopt;
     if (count > 0) summary.svf_min = svf.min, summary.svf_mean = svf.mean, summary.svf_max = svf.max;
+    if (count > 0) summary.svf_median = median_of(raster_.svf);
     if (count == 0) summary.svf_total.reset();
     if (summary.svf_total) summary.svf_total = range_of(raster_.further[total_band_]).second;
     summary.no_data = raster_.svf.size() - summary.receivers;
@@ -341,7 +357,7 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const Placing where = resolved(placing);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
-  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get());
+  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get(), beyond_grid_of(manifest));
   const std::vector<Cell> cells = cells_in(window, receivers, in_use.reader().grid());
   MemoryNeeds needs = needs_of(plan, {}, in_use.reader().grid(), 0);
   needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);

@@ -81,7 +81,7 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
             Edge of a pixel in metres, 0.01 to 10,000. Pixels begin at multiples of it (default: of 1; or the pixels of the
             raster that the city is).
         bbox : (west, south, east, north), optional
-            In the CRS of the city.
+            In the CRS of the city (default: ``city_bounds``; all cells are in ``bounds``).
         mask : geopandas.GeoSeries or GeoDataFrame of polygons, or a polygon of shapely in the CRS of the city, optional
             Pixels whose centres lie outside of it have no data, and cost next to nothing.
         like : xarray.DataArray or Dataset on (y, x), optional
@@ -101,9 +101,8 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
         -------
         xarray.Dataset on (y, x)
             ``svf`` (``svf_solid`` with that metric), with ``bounds`` also ``svf_low`` and ``svf_high``, and a variable for each
-            further quantity: float32, NaN where
-            there is no data, and beyond the cells of the grid. ``spatial_ref`` holds the CRS, where rioxarray and GDAL look for
-            it; the attribute ``summary`` the figures of the run as JSON. y runs from north to south.
+            further quantity: float32, NaN where there is no data, and far beyond the cells of the grid.
+            ``spatial_ref`` holds the CRS, where rioxarray and GDAL look for it; the attribute ``summary`` the figures of the run as JSON. y runs from north to south.
 
         Examples
         --------

@@ -75,6 +75,13 @@ class OpenCity:
         return west, south, east, north
 
     @property
+    def city_bounds(self) -> _arguments.Bbox:
+        """West, south, east and north of the buildings and 50 m around them, or of the raster that the city is: of rasters, by
+        default. Of a bare terrain, the same as ``bounds``."""
+        west, south, east, north = self._description["city_m"]
+        return west, south, east, north
+
+    @property
     def closed(self) -> bool:
         """Whether the city was closed: all functions then raise InvalidArgument."""
         return self._package is None
