@@ -47,10 +47,13 @@ std::vector<SurfacePolygon> SurfaceShapes::of(std::string_view building, std::ui
   const auto number = numbers_.find(building);
   if (number == numbers_.end()) return {};
   std::vector<SpaceTriangle> triangles;
-  for (const Piece& piece : std::ranges::equal_range(pieces_, std::pair{number->second, surface}, {}, place_of)) {
+  const std::pair wanted{number->second, surface};
+  // clang 14 knows no ranges::equal_range of libstdc++ 12
+  for (auto piece = std::ranges::lower_bound(pieces_, wanted, {}, place_of); piece != pieces_.end() && place_of(*piece) == wanted;
+       ++piece) {
     const std::size_t before = triangles.size();
-    triangles.resize(before + piece.triangles);
-    file_.read(piece.begin, std::as_writable_bytes(std::span(triangles).subspan(before)));
+    triangles.resize(before + piece->triangles);
+    file_.read(piece->begin, std::as_writable_bytes(std::span(triangles).subspan(before)));
   }
   return polygons_of(triangles);
 }
