@@ -114,8 +114,12 @@ double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSett
 
 std::string in_mib(double bytes) { return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mib))); }
 
+bool is_above_limit(double bytes, const RunSettings& run) {
+  return run.memory_limit_mib && bytes > static_cast<double>(*run.memory_limit_mib) * mib;
+}
+
 void require_below_limit(double bytes, const RunSettings& run, const std::string& what, const std::string& instead) {
-  if (!run.memory_limit_mib || bytes <= static_cast<double>(*run.memory_limit_mib) * mib) return;
+  if (!is_above_limit(bytes, run)) return;
   throw LimitReached(what + " needs about " + in_mib(bytes) + " MiB, more than the limit of " +
                      std::to_string(*run.memory_limit_mib) + " MiB: raise the memory limit, or " + instead + ".");
 }
@@ -171,14 +175,16 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
                            (has_crowns ? bytes_of_crowns_at_work(manifest) + bytes_of_canopy_pixels(manifest, settings) : 0.0);
   const double bytes = program_bytes + threads * of_thread + needs.results + static_cast<double>(settings.run.caller_bytes) +
                        in_flight + bytes_of_samples(manifest, settings) + bytes_of_pixels(manifest, settings) + of_blocks;
-  require_below_limit(bytes, settings.run, "this run",
-                      "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
-  if (!needs.whole_city && !traces_whole_city(settings)) return bytes;
-  const double with_city = bytes + bytes_of_whole_city(manifest, settings);
-  require_below_limit(with_city, settings.run, "tracing the whole city",
+  const bool has_whole_city = needs.whole_city || traces_whole_city(settings);
+  const double in_all = bytes + (has_whole_city ? bytes_of_whole_city(manifest, settings) : 0.0);
+  // What is told is enough, whichever of its parts is too large
+  if (is_above_limit(bytes, settings.run))
+    require_below_limit(in_all, settings.run, "this run",
+                        "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
+  require_below_limit(in_all, settings.run, "tracing the whole city",
                       "leave out what needs it (the engine exact, a verification, a largest error, distances of horizons, view "
                       "factors, shadow patches, points beyond the grid, cells without a far map)");
-  return with_city;
+  return in_all;
 }
 
 EvaluationSummary with_memory(EvaluationSummary summary, double bytes) {
