@@ -12,8 +12,12 @@
 #include "app/package_facts.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
+#include "farlod/morphology.hpp"
+#include "farlod/version.hpp"
 #include "results/mesh/mesh_file.hpp"
+#include "results/output_format.hpp"
 #include "results/picture/cell_picture.hpp"
+#include "results/table/morphology_table.hpp"
 
 namespace farlod {
 namespace {
@@ -83,16 +87,30 @@ void draw_city_of(const Package& package, const PackageFacts& facts, const InfoO
   write_drawing(draw_city(city_scenery(package, facts, options.report_file, run)), options.picture_file);
 }
 
+void write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
+  ProgressLine progress("cells", options.run.verbosity);
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
+  const PackageDescription& city = facts.description;
+  TableFrame frame{.columns = {}, .crs_wkt = city.crs_wkt, .epsg = city.epsg, .convergence = city.convergence};
+  frame.columns.further = morphology_columns();
+  frame.provenance = {std::string("Far-LoD ") + software_version, facts.package, fmt::format("{:016x}", city.manifest_xxh3),
+                      "--cells"};
+  output_format_of(options.cells_file)->write_cells(morphology_of_cells(package, run), frame, options.cells_file);
+}
+
 int run(const InfoOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   for (const std::filesystem::path& file :
-       {options.obj_file, options.picture_file, std::filesystem::path(options.run.summary_file)})
+       {options.obj_file, options.picture_file, options.cells_file, std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
   const auto start = Clock::now();
   const Package package(options.package);
   const PackageFacts facts = facts_of(package, options);
   if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
   if (!options.picture_file.empty()) (options.cell ? draw_neighborhood : draw_city_of)(package, facts, options);
+  if (!options.cells_file.empty()) write_table_of_cells(package, facts, options);
   const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
   write_text(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
   if (options.json)

@@ -21,13 +21,16 @@ ProgramDescription info_program() {
   return {.name = "farlod-info",
           .purpose = "tells what a package of farlod-pack holds, and whether it is whole",
           .examples = {"farlod-info town.farlod", "farlod-info town.farlod --check", "farlod-info town.farlod --png city.png",
+                       "farlod-info town.farlod --cells cells.gpkg",
                        "farlod-info town.farlod --cell 3,2 --png cell.png --obj cell.obj"},
           .background =
               {"A package holds a city cut into cells, and for each cell what matters of the city far away. The manifest "
                "tells what was packed, how, and what was wrong with it; --check reads all the rest, too.",
                "The picture of a city shows it from above: heights of buildings, the ground, the grid, a scale and where it "
                "lies. The picture of a cell shows its neighborhood from above, and beside it the far map: the horizon that the "
-               "city beyond the neighborhood has in the middle of the cell."},
+               "city beyond the neighborhood has in the middle of the cell.",
+               "The table of cells is for models of the urban canopy, and has the square of each cell where its format has "
+               "places. What lies below the ground does not count, what roofs cover counts once, and party walls are none."},
           .exit_codes = {{exit_done, "done"},
                          {exit_internal, "an internal error"},
                          {exit_usage, "a wrong command line"},
@@ -37,9 +40,11 @@ ProgramDescription info_program() {
           .licence = "Apache-2.0"};
 }
 
+bool holds_cells(const OutputFormat& format) { return format.write_cells != nullptr; }
+
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, cell, obj, picture, report;
+  std::string package, cell, cells, obj, picture, report;
 };
 
 void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
@@ -47,6 +52,11 @@ void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
   app.add_flag("--json", o.json, "Print everything as JSON, also with --quiet")->group("Output");
   app.add_flag("--check", o.check, "Read all of the package, and tell what is damaged, and where")->group("Contents");
   app.add_option("--cell", raw.cell, "I,J: also tell what this cell holds")->group("Contents");
+  app.add_option("--cells", raw.cells,
+                 "Write the urban form of each cell of the grid to this table (" + endings_where(holds_cells) +
+                     "): plan area fraction, frontal area density for 16 wind directions, areas and heights, roughness")
+      ->type_name(file_value)
+      ->group("Output");
   app.add_option("--obj", raw.obj, "Write the neighborhood of --cell to this OBJ file, a group for each building")
       ->type_name(file_value)
       ->group("Output");
@@ -78,15 +88,24 @@ bool is_picture(const std::filesystem::path& path) {
   return format != nullptr && format->is_picture;
 }
 
+bool is_table_of_cells(const std::filesystem::path& path) {
+  const OutputFormat* const format = output_format_of(path);
+  return format != nullptr && holds_cells(*format);
+}
+
 void resolve(const RawOptions& raw, InfoOptions& o) {
   o.package = raw.package;
   o.obj_file = raw.obj;
   o.picture_file = raw.picture;
+  o.cells_file = raw.cells;
   if (!raw.cell.empty()) {
     o.cell = cell_in(raw.cell);
     if (!o.cell) throw CLI::ValidationError("--cell", "\"" + raw.cell + "\" is not of the form I,J");
   }
   o.report_file = raw.report;
+  if (!raw.cells.empty() && !is_table_of_cells(o.cells_file))
+    throw CLI::ValidationError(
+        "--cells", "\"" + raw.cells + "\" is not the name of a table of cells: choose one of " + endings_where(holds_cells));
   if (!raw.obj.empty() && !o.cell) throw CLI::ValidationError("--obj", "it goes with --cell");
   if (!raw.report.empty() && (raw.picture.empty() || o.cell))
     throw CLI::ValidationError("--report", "it goes with --png, and without --cell");

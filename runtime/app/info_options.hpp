@@ -16,6 +16,7 @@ struct InfoOptions {
   bool json = false, check = false;
   std::optional<CellPlace> cell;
   std::filesystem::path obj_file, picture_file;  ///< of the cell, or the picture of the city; perhaps empty
+  std::filesystem::path cells_file;              ///< of the table of cells; perhaps empty
   std::filesystem::path report_file;             ///< of problems, for the picture of the city; perhaps empty
   RunOptions run;
 };

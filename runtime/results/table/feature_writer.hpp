@@ -23,7 +23,7 @@ struct FeatureField {
 };
 
 /// What the rows of a layer are.
-enum class LayerGeometry : std::uint8_t { none, points, polygons };
+enum class LayerGeometry : std::uint8_t { none, points, polygons, areas };
 
 /// A table whose rows may have a place, as GIS programs know them.
 struct FeatureLayer {
@@ -41,6 +41,8 @@ struct FeatureRow {
   std::optional<double> height_m;  ///< likewise
   std::vector<FieldValue> values;  ///< as many as FeatureLayer::fields
   std::vector<SurfacePolygon> polygons = {};
+  /// Of an area: its corners, counter-clockwise, the first not again at the end. It is level, without heights.
+  std::vector<Point2d> outline = {};
 };
 
 /// Writes layers to files of a vector format. All functions throw OutputError.
@@ -60,7 +62,7 @@ class FeatureWriter {
 
 /// Writes layers by GDAL, in the CRS of the frame:
 ///   (1) Coordinates are rounded to the millimetre, and places have three. z of a point is NaN where the height is not known.
-///       Polygons are those of a MultiPolygon Z.
+///       Polygons are those of a MultiPolygon Z, areas are polygons of two coordinates.
 ///   (2) Fields are text, 64-bit integers or doubles, and null where a feature has no value.
 ///   (3) The same features give the same bytes. What a file calls its date is 1 January 1970, or OGR_CURRENT_DATE where the
 ///       environment has it.
@@ -77,7 +79,8 @@ class FeatureWriter {
 
 /// Writes a layer of points to a netCDF-4 file after the CF conventions, version 1.8, as a discrete sampling geometry of the
 /// feature type `point`: a variable for each field along the dimension `point`, with the coordinates `x_m`, `y_m` and `z_m`, and
-/// `crs` as the grid mapping. Texts are rows of characters in UTF-8. Holds some thousand rows, however many there are.
+/// `crs` as the grid mapping. Texts are rows of characters in UTF-8. Areas are points at FeatureRow::p_projected, without height.
+/// Holds some thousand rows, however many there are.
 [[nodiscard]] std::unique_ptr<FeatureWriter> netcdf_point_writer(const TableFrame& frame, const std::filesystem::path& path);
 
 }  // namespace farlod

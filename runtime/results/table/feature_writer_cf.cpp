@@ -94,7 +94,8 @@ class CfPointWriter final : public FeatureWriter {
   CfPointWriter(const TableFrame& frame, const std::filesystem::path& path) : frame_(frame), file_(path) {}
 
   void begin(const FeatureLayer& layer) override {
-    FARLOD_EXPECTS(columns_.empty() && layer.geometry == LayerGeometry::points);
+    FARLOD_EXPECTS(columns_.empty() && (layer.geometry == LayerGeometry::points || layer.geometry == LayerGeometry::areas));
+    if (layer.geometry == LayerGeometry::areas) coordinates_ = "x_m y_m";
     file_.describe(layer.description, frame_.provenance);
     file_.attribute(NetcdfFile::whole_file, "featureType", "point");
     const int point = file_.dimension("point", NetcdfFile::unlimited);
@@ -144,7 +145,7 @@ class CfPointWriter final : public FeatureWriter {
       file_.attribute(variable, "long_name", band->definition);
     }
     if (is_coordinate(field.name)) return;
-    file_.attribute(variable, "coordinates", "x_m y_m z_m");
+    file_.attribute(variable, "coordinates", coordinates_);
     if (!frame_.crs_wkt.empty()) file_.attribute(variable, "grid_mapping", "crs");
   }
   void put_rows() {
@@ -157,6 +158,7 @@ class CfPointWriter final : public FeatureWriter {
   TableFrame frame_;
   NetcdfFile file_;
   std::vector<Column> columns_;
+  std::string coordinates_ = "x_m y_m z_m";
   std::size_t written_ = 0, waiting_ = 0;
 };
 

@@ -64,8 +64,17 @@ OGRFieldType gdal_type_of(FieldType type) {
 }
 
 OGRwkbGeometryType gdal_type_of(LayerGeometry geometry) {
-  if (geometry == LayerGeometry::none) return wkbNone;
-  return geometry == LayerGeometry::points ? wkbPoint25D : wkbMultiPolygon25D;
+  switch (geometry) {
+    case LayerGeometry::none:
+      return wkbNone;
+    case LayerGeometry::points:
+      return wkbPoint25D;
+    case LayerGeometry::polygons:
+      return wkbMultiPolygon25D;
+    case LayerGeometry::areas:
+      break;
+  }
+  return wkbPolygon;
 }
 
 double millimetres(double value) { return std::round(value * 1e3) / 1e3; }
@@ -97,6 +106,15 @@ void set_value(OGRFeature& feature, int field, const FieldValue& value) {
     feature.SetField(field, *real);
   else
     feature.SetFieldNull(field);
+}
+
+void set_area(OGRFeature& feature, const std::vector<Point2d>& outline) {
+  OGRLinearRing ring;
+  for (const Point2d& p : outline) ring.addPoint(millimetres(p.x), millimetres(p.y));
+  ring.closeRings();
+  OGRPolygon polygon;
+  polygon.addRing(&ring);
+  feature.SetGeometry(&polygon);
 }
 
 class GdalFeatureWriter final : public FeatureWriter {
@@ -149,6 +167,7 @@ class GdalFeatureWriter final : public FeatureWriter {
       point_->setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
     }
     if (has_polygons_) feature.SetGeometryDirectly(multipolygon_of(row.polygons).release());
+    if (!row.outline.empty()) set_area(feature, row.outline);
     if (layer_->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
       throw OutputError(file_.destination(), "a row was refused");
     throw_if_any(errors);

@@ -120,6 +120,8 @@ void GeojsonWriter::add(const FeatureRow& row) {
     append_value(feature.properties, row.values[n]);
   }
   if (geometry_ == LayerGeometry::points) add_place(row.p_projected, row.height_m);
+  if (geometry_ == LayerGeometry::areas) feature.polygons.push_back({row.outline.size()});
+  for (const Point2d p : row.outline) add_place(p, std::nullopt);
   for (const SurfacePolygon& p : row.polygons) {
     std::vector<std::size_t>& rings = feature.polygons.emplace_back();
     rings.push_back(add_ring(p.shell));
@@ -160,6 +162,13 @@ void GeojsonWriter::append_geometry(std::string& json, const Waiting& feature, s
   }
   if (feature.polygons.empty()) {
     json += "null";
+    return;
+  }
+  if (geometry_ == LayerGeometry::areas) {
+    json += R"({"type": "Polygon", "coordinates": [)";
+    append_ring(json, place, feature.polygons[0][0]);
+    place += feature.polygons[0][0];
+    json += "]}";
     return;
   }
   json += R"({"type": "MultiPolygon", "coordinates": [)";

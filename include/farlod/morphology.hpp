@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "farlod/export.hpp"
+#include "farlod/inspection.hpp"
+#include "farlod/package.hpp"
+#include "farlod/point.hpp"
+#include "farlod/run.hpp"
+
+namespace farlod {
+
+/// Directions that the wind comes from: the k-th is k · 22.5° clockwise from true north.
+inline constexpr std::size_t wind_directions = 16;
+
+/// What a cell has of areas and heights. Sums over cells are those of the city, whatever the size of the cells, but for rounding
+/// and for `buildings`. What lies below the ground counts nowhere.
+struct CellAmounts {
+  double plan_area_m2 = 0.0;  ///< of the cell, with its buildings
+  /// Of the ground that roofs, and walls that lean back, cover seen from above: what several cover counts once.
+  double building_plan_area_m2 = 0.0;
+  double roof_area_m2 = 0.0;  ///< of the roofs seen from above, along their slopes
+  /// Of the outer sides of walls, without party walls: where two walls stand back to back, neither counts.
+  double wall_area_m2 = 0.0;
+  /// Of those walls and roofs, seen from where the wind comes from, as if nothing stood in front of anything.
+  std::array<double, wind_directions> frontal_area_m2{};
+  /// The integrals of the height of what is seen from above over the ground below it, and of its square, over the building plan
+  /// area; the largest height.
+  double volume_m3 = 0.0, height_moment_m4 = 0.0, height_max_m = 0.0;
+  /// Of the buildings that are seen from above in the cell, each by its mean height there: number, mean, standard deviation.
+  std::size_t buildings = 0;
+  double building_height_mean_m = 0.0, building_height_std_m = 0.0;
+};
+
+/// Roughness length and zero-plane displacement height for wind.
+struct Roughness {
+  double length_m = 0.0, displacement_m = 0.0;
+};
+
+/// What the amounts of a cell mean, in the words of urban climatology. Without buildings there are no heights and no roughness;
+/// without ground between them no height to width ratio.
+struct CellMorphology {
+  CellPlace cell;
+  std::array<Point2d, 4> corners_projected;  ///< counter-clockwise from the south-western one, easting and northing
+  CellAmounts amounts;
+
+  [[nodiscard]] double lambda_p() const { return amounts.building_plan_area_m2 / amounts.plan_area_m2; }
+  [[nodiscard]] double lambda_f(std::size_t wind) const { return amounts.frontal_area_m2[wind] / amounts.plan_area_m2; }
+  [[nodiscard]] FARLOD_EXPORT double lambda_f_mean() const;  ///< of all wind directions
+  [[nodiscard]] double wall_to_plan() const { return amounts.wall_area_m2 / amounts.plan_area_m2; }
+  /// All surface in contact with the air over the plan area (Voogt & Oke 1997): walls, roofs, and the ground between them as if
+  /// it were level.
+  [[nodiscard]] FARLOD_EXPORT double complete_aspect_ratio() const;
+  /// Of the canyon that has as much wall and ground (Masson 2000): half the wall area over the plan area without buildings.
+  [[nodiscard]] FARLOD_EXPORT std::optional<double> height_to_width() const;
+  /// Mean and standard deviation over the building plan area.
+  [[nodiscard]] FARLOD_EXPORT std::optional<double> height_mean_m() const;
+  [[nodiscard]] FARLOD_EXPORT std::optional<double> height_std_m() const;
+  /// By Macdonald et al. (1998), for staggered obstacles (A = 4.43, β = 1, C_D = 1.2, κ = 0.4), from lambda_p, lambda_f_mean and
+  /// height_mean_m.
+  [[nodiscard]] FARLOD_EXPORT std::optional<Roughness> roughness_macdonald() const;
+  /// By Kanda et al. (2013), whose length is a multiple of the former, from height_std_m and the largest height besides.
+  [[nodiscard]] FARLOD_EXPORT std::optional<Roughness> roughness_kanda() const;
+};
+
+/// The cells of a package, row by row from the south-west. Throws InvalidArgument where the package does not tell buildings from
+/// ground (a surface model), or has not cut them at the borders of cells; Cancelled, PackageUnusable, PackageDamaged.
+[[nodiscard]] FARLOD_EXPORT std::vector<CellMorphology> morphology_of_cells(const Package& package, const RunSettings& run = {});
+
+}  // namespace farlod

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/cell_amounts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace farlod {
+namespace {
+
+constexpr Point3d upwards{0.0, 0.0, 1.0};
+
+/// A surface that is steeper than this (a millimetre in a metre off the vertical) covers no plan: its height at a place would be
+/// rounding.
+constexpr double least_plan_normal_z = 0.001;
+
+/// Two roofs this close to each other are one (VerticalProfile).
+constexpr double same_roof_m = 0.0006;
+
+/// What lies above a face, or below it. It looks up.
+HalfSpace above(const CellFace& f) { return {f.corners[0], f.normal}; }
+
+ConvexPiece piece_of(const CellFace& f) { return {f.corners.begin(), f.corners.end()}; }
+
+bool covers_plan(const CellFace& f) { return f.normal.z > least_plan_normal_z; }
+
+/// Sorted by their western ends.
+std::vector<CellFace> from_west(std::vector<CellFace> faces) {
+  std::ranges::stable_sort(faces, {}, [](const CellFace& f) { return f.low.x; });
+  return faces;
+}
+
+/// The faces of `all` that cover some plan, from west to east.
+std::vector<CellFace> plan_faces(const std::vector<CellFace>& all) {
+  std::vector<CellFace> faces;
+  std::ranges::copy_if(all, std::back_inserter(faces), covers_plan);
+  return from_west(std::move(faces));
+}
+
+/// Calls `visit(n)` for those of `sorted` (from_west) whose boxes come so close to that of a face in the plan.
+template <class Visit>
+void for_each_touching(const std::vector<CellFace>& sorted, const CellFace& face, const Visit& visit, double margin_m = 0.0) {
+  for (std::size_t n = 0; n < sorted.size() && sorted[n].low.x <= face.high.x + margin_m; ++n)
+    if (touch_in_plan(face, sorted[n], margin_m)) visit(n);
+}
+
+/// Whether a piece lies in a face, but for rounding.
+bool lies_in(const ConvexPiece& piece, const CellFace& face) {
+  return std::ranges::all_of(
+      piece, [&](const Point3d& p) { return std::abs(above(face).signed_distance(p)) <= same_roof_m * face.normal.z; });
+}
+
+/// Cuts away what another roof hides from above. Of two that lie in each other, the first stays.
+void cut_by_roof(std::vector<ConvexPiece>& pieces, const CellFace& other, bool is_earlier) {
+  const Column column(other.corners, upwards);
+  std::vector<ConvexPiece> left;
+  for (const ConvexPiece& piece : pieces) {
+    const bool is_same = lies_in(column.part_of(piece), other);
+    // Everywhere below the other one, where that is the earlier
+    const HalfSpace hidden =
+        is_same ? HalfSpace{other.corners[0] + Point3d{0.0, 0.0, 1e6}, {0.0, 0.0, -1.0}} : above(other).opposite();
+    const std::vector<ConvexPiece> whole{piece};
+    const std::vector<ConvexPiece> parts = is_same && !is_earlier ? whole : without(whole, column, hidden);
+    left.insert(left.end(), parts.begin(), parts.end());
+  }
+  pieces = std::move(left);
+}
+
+/// Cuts away what lies below the ground.
+void cut_by_ground(std::vector<ConvexPiece>& pieces, const CellFace& face, const std::vector<CellFace>& ground) {
+  for_each_touching(ground, face, [&](std::size_t n) {
+    if (ground[n].high.z <= face.low.z || pieces.empty()) return;
+    pieces = without(pieces, Column(ground[n].corners, upwards), above(ground[n]).opposite());
+  });
+}
+
+/// A wind from each direction meets a surface of this area vector.
+void add_frontal(const Point3d& area, const WindDirections& winds, CellAmounts& amounts) {
+  for (std::size_t k = 0; k < winds.size(); ++k) amounts.frontal_area_m2[k] += std::max(0.0, dot(horizontal(area), winds[k]));
+}
+
+/// What is seen from above, and how high it stands.
+class PlanOfCell {
+ public:
+  PlanOfCell(const CellFaces& faces, const WindDirections& winds, CellAmounts& amounts)
+      : ground_(plan_faces(faces.ground)), winds_(winds), amounts_(amounts) {
+    std::vector<CellFace> tops = faces.roofs;
+    tops.insert(tops.end(), faces.walls.begin(), faces.walls.end());
+    tops_ = plan_faces(tops);
+  }
+  void add_all() {
+    for (std::size_t n = 0; n < tops_.size(); ++n) add(n);
+    add_heights_of_buildings();
+  }
+
+ private:
+  struct OfBuilding {
+    double plan_area_m2 = 0.0, volume_m3 = 0.0;
+  };
+
+  void add(std::size_t number) {
+    const CellFace& top = tops_[number];
+    std::vector<ConvexPiece> seen{piece_of(top)};
+    for_each_touching(tops_, top, [&](std::size_t n) {
+      if (n != number && tops_[n].high.z > top.low.z - same_roof_m && !seen.empty()) cut_by_roof(seen, tops_[n], n < number);
+    });
+    cut_by_ground(seen, top, ground_);
+    for (const ConvexPiece& piece : seen) {
+      const Point3d area = area_vector(piece);
+      amounts_.building_plan_area_m2 += area.z;
+      buildings_[top.building].plan_area_m2 += area.z;
+      add_heights(piece, top);
+      // A wall that leans back counts as a wall
+      if (std::abs(top.normal.z) < wall_normal_z) continue;
+      amounts_.roof_area_m2 += norm(area);
+      add_frontal(area, winds_, amounts_);
+    }
+  }
+  /// Above each triangle of the ground, the height over it is linear.
+  void add_heights(const ConvexPiece& piece, const CellFace& top) {
+    for_each_touching(ground_, top, [&](std::size_t n) {
+      const ConvexPiece part = Column(ground_[n].corners, upwards).part_of(piece);
+      std::vector<double> heights_m;
+      for (const Point3d& p : part) heights_m.push_back(above(ground_[n]).signed_distance(p) / ground_[n].normal.z);
+      for (std::size_t k = 2; k < part.size(); ++k) {
+        const double third = area_vector({part[0], part[k - 1], part[k]}).z / 3.0;
+        const double a = heights_m[0], b = heights_m[k - 1], c = heights_m[k], sum = a + b + c;
+        amounts_.volume_m3 += third * sum;
+        amounts_.height_moment_m4 += 0.25 * third * (a * a + b * b + c * c + sum * sum);
+        buildings_[top.building].volume_m3 += third * sum;
+        if (third > negligible_area_m2) amounts_.height_max_m = std::max({amounts_.height_max_m, a, b, c});
+      }
+    });
+  }
+  void add_heights_of_buildings() {
+    // What is smaller than a square centimetre is rounding
+    std::erase_if(buildings_, [](const auto& b) { return b.second.plan_area_m2 < 1e-4; });
+    amounts_.buildings = buildings_.size();
+    if (buildings_.empty()) return;
+    const auto count = static_cast<double>(buildings_.size());
+    double sum = 0.0, squares = 0.0;
+    for (const auto& [number, b] : buildings_) sum += b.volume_m3 / b.plan_area_m2;
+    amounts_.building_height_mean_m = sum / count;
+    for (const auto& [number, b] : buildings_)
+      squares += std::pow(b.volume_m3 / b.plan_area_m2 - amounts_.building_height_mean_m, 2);
+    amounts_.building_height_std_m = std::sqrt(squares / count);
+  }
+
+  std::vector<CellFace> ground_, tops_;
+  const WindDirections& winds_;
+  CellAmounts& amounts_;
+  std::map<std::uint32_t, OfBuilding> buildings_;
+};
+
+/// Whether two walls face away from each other.
+bool are_back_to_back(const CellFace& a, const CellFace& b) {
+  constexpr double most_alike = -0.9998;  // they are parallel within a degree
+  return dot(a.of_surface, b.of_surface) <= most_alike;
+}
+
+/// The part of a wall that is nowhere farther than `party_wall_m` from the plane of another one. So it does not depend on where
+/// the grid cuts either of them.
+ConvexPiece close_part(const CellFace& wall, const CellFace& to) {
+  const Point3d& n = to.of_surface;
+  const Point3d ahead = to.corners[0] + party_wall_m * n, behind = to.corners[0] - party_wall_m * n;
+  return part_in(part_in(piece_of(wall), {ahead, -1.0 * n}), {behind, n});
+}
+
+/// `others` are the walls of the cell and those on its border (from_west).
+void cut_by_party_walls(std::vector<ConvexPiece>& pieces, const CellFace& wall, const std::vector<CellFace>& others) {
+  // All of a column is party wall: the half space begins behind the wall
+  const HalfSpace everywhere{wall.corners[0] - wall.of_surface, wall.of_surface};
+  for_each_touching(
+      others, wall,
+      [&](std::size_t n) {
+        if (pieces.empty() || !are_back_to_back(wall, others[n])) return;
+        const ConvexPiece close = close_part(others[n], wall);
+        for (std::size_t k = 2; k < close.size(); ++k)
+          pieces = without(pieces, Column({close[0], close[k - 1], close[k]}, wall.of_surface), everywhere);
+      },
+      party_wall_m);
+}
+
+/// An upright wall along a side that two triangles of the ground share lies in the columns of both, and is cut twice by the same
+/// or the higher ground, which changes nothing more.
+void add_walls(const CellFaces& faces, const WindDirections& winds, CellAmounts& amounts) {
+  const std::vector<CellFace> ground = plan_faces(faces.ground);
+  std::vector<CellFace> others = faces.walls;
+  others.insert(others.end(), faces.walls_at_border.begin(), faces.walls_at_border.end());
+  others = from_west(std::move(others));
+  for (const CellFace& wall : faces.walls) {
+    std::vector<ConvexPiece> pieces{piece_of(wall)};
+    cut_by_party_walls(pieces, wall, others);
+    cut_by_ground(pieces, wall, ground);
+    for (const ConvexPiece& piece : pieces) {
+      const Point3d area = area_vector(piece);
+      amounts.wall_area_m2 += norm(area);
+      add_frontal(area, winds, amounts);
+    }
+  }
+}
+
+}  // namespace
+
+CellAmounts amounts_of(const CellFaces& faces, const WindDirections& winds) {
+  CellAmounts amounts;
+  PlanOfCell(faces, winds, amounts).add_all();
+  add_walls(faces, winds, amounts);
+  return amounts;
+}
+
+}  // namespace farlod

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "farlod/morphology.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "tests/library/packed_sample.hpp"
+#include "tests/scenes/footprints_text.hpp"
+
+namespace farlod::library {
+namespace {
+
+using scenes::building;
+
+/// East of the central meridian of the zone, so that grid north and true north differ.
+constexpr Point2d form_corner{560000.0, 5500000.0};
+
+/// Coordinates relative to a cell are floats of some micrometres; surfaces are 100 m long.
+constexpr double form_rounding_m2 = 1e-3;
+
+/// Footprints, packed in cells of any size.
+class FormTown {
+ public:
+  explicit FormTown(const scenes::FootprintsText& footprints) : text_(footprints.text()) {}
+
+  [[nodiscard]] std::vector<CellMorphology> cells(double cell_edge_m, AlignMode align = AlignMode::none) const {
+    return morphology_of_cells(packed(cell_edge_m, align));
+  }
+  [[nodiscard]] Package packed(double cell_edge_m, AlignMode align, Assign assign = Assign::clip) const {
+    std::ofstream(folder_.file("town.geojson")) << text_;
+    PackSettings settings;
+    settings.inputs = {folder_.file("town.geojson")};
+    settings.output = folder_.file("town" + std::to_string(++packages_));
+    settings.cell_edge_m = cell_edge_m;
+    settings.align = align;
+    settings.assign = assign;
+    Report report;
+    (void)pack(settings, report);
+    return Package(settings.output);
+  }
+
+ private:
+  std::string text_;
+  scenes::TemporaryFolder folder_;
+  mutable int packages_ = 0;
+};
+
+Box2d form_box(double west, double south, double east, double north) {
+  return {form_corner + Point2d{west, south}, form_corner + Point2d{east, north}};
+}
+
+CellAmounts amounts_together(const std::vector<CellMorphology>& cells) {
+  CellAmounts sum;
+  for (const CellMorphology& cell : cells) {
+    const CellAmounts& a = cell.amounts;
+    sum.plan_area_m2 += a.plan_area_m2;
+    sum.building_plan_area_m2 += a.building_plan_area_m2;
+    sum.roof_area_m2 += a.roof_area_m2;
+    sum.wall_area_m2 += a.wall_area_m2;
+    for (std::size_t k = 0; k < wind_directions; ++k) sum.frontal_area_m2[k] += a.frontal_area_m2[k];
+    sum.volume_m3 += a.volume_m3;
+    sum.height_moment_m4 += a.height_moment_m4;
+    sum.height_max_m = std::max(sum.height_max_m, a.height_max_m);
+  }
+  return sum;
+}
+
+/// A house of 40 m × 20 m × 10 m, whose long sides face south and north of the map.
+FormTown form_house() { return FormTown(scenes::FootprintsText().add(building("a", 10.0), form_box(0, 0, 40, 20))); }
+
+TEST(Morphology, AHouseHasTheAreasOfItsSidesInCellsOfAnySize) {
+  const FormTown town = form_house();
+  for (const double cell_edge_m : {7.0, 13.0, 50.0, 200.0}) {
+    SCOPED_TRACE(cell_edge_m);
+    const CellAmounts sum = amounts_together(town.cells(cell_edge_m));
+    EXPECT_NEAR(sum.building_plan_area_m2, 800.0, form_rounding_m2);
+    EXPECT_NEAR(sum.roof_area_m2, 800.0, form_rounding_m2);
+    EXPECT_NEAR(sum.wall_area_m2, 1200.0, form_rounding_m2);
+    EXPECT_NEAR(sum.volume_m3, 8000.0, 10.0 * form_rounding_m2);
+    EXPECT_NEAR(sum.height_moment_m4, 80000.0, 100.0 * form_rounding_m2);
+    EXPECT_NEAR(sum.height_max_m, 10.0, form_rounding_m2);
+  }
+}
+
+TEST(Morphology, WindMeetsTheSidesThatFaceIt) {
+  const FormTown town = form_house();
+  for (const AlignMode align : {AlignMode::none, AlignMode::automatic}) {
+    const Package package = town.packed(50.0, align);
+    const CellAmounts sum = amounts_together(morphology_of_cells(package));
+    for (std::size_t k = 0; k < wind_directions; ++k) {
+      // The map's own north lies this far from true north
+      const double azimuth =
+          2.0 * std::numbers::pi * static_cast<double>(k) / wind_directions - package.description().convergence.radians();
+      EXPECT_NEAR(sum.frontal_area_m2[k], 400.0 * std::abs(std::cos(azimuth)) + 200.0 * std::abs(std::sin(azimuth)),
+                  form_rounding_m2);
+    }
+  }
+}
+
+/// Two houses of the same length, 10 m and 6 m high, wall to wall along the y axis.
+TEST(Morphology, PartyWallsAreNoWalls) {
+  const FormTown town(
+      scenes::FootprintsText().add(building("a", 10.0), form_box(0, 0, 10, 20)).add(building("b", 6.0), form_box(10, 0, 20, 20)));
+  for (const double cell_edge_m : {5.0, 7.0, 50.0}) {
+    SCOPED_TRACE(cell_edge_m);
+    const CellAmounts sum = amounts_together(town.cells(cell_edge_m));
+    EXPECT_NEAR(sum.wall_area_m2, 60.0 * 10.0 + 60.0 * 6.0 - 2.0 * 20.0 * 6.0, form_rounding_m2);
+    EXPECT_NEAR(sum.building_plan_area_m2, 400.0, form_rounding_m2);
+  }
+}
+
+/// A low house, and a higher one whose footprint overlaps it by 5 m × 20 m.
+TEST(Morphology, WhatSeveralRoofsCoverCountsOnceAndAtTheHigherOne) {
+  const FormTown town(
+      scenes::FootprintsText().add(building("a", 10.0), form_box(0, 0, 10, 20)).add(building("b", 30.0), form_box(5, 0, 25, 20)));
+  for (const double cell_edge_m : {7.0, 50.0}) {
+    SCOPED_TRACE(cell_edge_m);
+    const CellAmounts sum = amounts_together(town.cells(cell_edge_m));
+    EXPECT_NEAR(sum.building_plan_area_m2, 500.0, form_rounding_m2);
+    EXPECT_NEAR(sum.volume_m3, 100.0 * 10.0 + 400.0 * 30.0, 30.0 * form_rounding_m2);
+    EXPECT_NEAR(sum.height_max_m, 30.0, form_rounding_m2);
+  }
+}
+
+TEST(Morphology, TheSameHouseTwiceIsOne) {
+  const FormTown town(
+      scenes::FootprintsText().add(building("a", 10.0), form_box(0, 0, 10, 20)).add(building("b", 10.0), form_box(0, 0, 10, 20)));
+  EXPECT_NEAR(amounts_together(town.cells(50.0)).building_plan_area_m2, 200.0, form_rounding_m2);
+}
+
+/// The middle cell of rows of houses of 10 m × 10 m and 10 m height, a house in the middle of each cell of 20 m.
+TEST(Morphology, RatiosOfACellAreThoseOfThePublications) {
+  CellMorphology cell;
+  cell.amounts.plan_area_m2 = 400.0;
+  cell.amounts.building_plan_area_m2 = cell.amounts.roof_area_m2 = 100.0;
+  cell.amounts.wall_area_m2 = 400.0;
+  cell.amounts.frontal_area_m2.fill(100.0);
+  cell.amounts.volume_m3 = 1000.0;
+  cell.amounts.height_moment_m4 = 10000.0;
+  cell.amounts.height_max_m = 10.0;
+  EXPECT_DOUBLE_EQ(cell.lambda_p(), 0.25);
+  EXPECT_DOUBLE_EQ(cell.lambda_f(3), 0.25);
+  EXPECT_DOUBLE_EQ(cell.lambda_f_mean(), 0.25);
+  EXPECT_DOUBLE_EQ(cell.complete_aspect_ratio(), 2.0);
+  EXPECT_DOUBLE_EQ(*cell.height_to_width(), 400.0 / 2.0 / 300.0);
+  EXPECT_DOUBLE_EQ(*cell.height_mean_m(), 10.0);
+  EXPECT_NEAR(*cell.height_std_m(), 0.0, 1e-6);
+  // By hand: 4.43^-0.25 = 0.68928, so zd/H = 1 - 0.75 · 0.68928; z0/H = 0.51696 · exp(-(3.75 · 0.51696 · 0.25)^-0.5)
+  EXPECT_NEAR(cell.roughness_macdonald()->displacement_m, 4.8304, 1e-3);
+  EXPECT_NEAR(cell.roughness_macdonald()->length_m, 1.2292, 1e-3);
+  // x = 1 and y = 0: zd = 1.29 · 0.25^0.36 · 10, z0 = 0.71 of the other
+  EXPECT_NEAR(cell.roughness_kanda()->displacement_m, 7.8316, 1e-3);
+  EXPECT_NEAR(cell.roughness_kanda()->length_m, 0.71 * cell.roughness_macdonald()->length_m, 1e-6);
+}
+
+/// Half of the plan area 10 m high, half 30 m.
+TEST(Morphology, KandaKnowsHowHeightsDiffer) {
+  CellMorphology cell;
+  cell.amounts.plan_area_m2 = 1000.0;
+  cell.amounts.building_plan_area_m2 = 400.0;
+  cell.amounts.frontal_area_m2.fill(300.0);
+  cell.amounts.volume_m3 = 200.0 * 10.0 + 200.0 * 30.0;
+  cell.amounts.height_moment_m4 = 200.0 * 100.0 + 200.0 * 900.0;
+  cell.amounts.height_max_m = 40.0;
+  ASSERT_DOUBLE_EQ(*cell.height_std_m(), 10.0);
+  // x = 0.75, y = 0.4 · 10 / 20
+  EXPECT_NEAR(cell.roughness_kanda()->displacement_m, (-0.17 * 0.5625 + (1.29 * std::pow(0.4, 0.36) + 0.17) * 0.75) * 40.0, 1e-9);
+  EXPECT_NEAR(cell.roughness_kanda()->length_m / cell.roughness_macdonald()->length_m, 20.21 * 0.04 - 0.77 * 0.2 + 0.71, 1e-9);
+}
+
+TEST(Morphology, ACellWithoutBuildingsHasNoHeights) {
+  CellMorphology cell;
+  cell.amounts.plan_area_m2 = 400.0;
+  EXPECT_EQ(cell.lambda_p(), 0.0);
+  EXPECT_EQ(cell.complete_aspect_ratio(), 1.0);
+  EXPECT_EQ(cell.height_to_width(), 0.0);
+  EXPECT_FALSE(cell.height_mean_m() || cell.height_std_m() || cell.roughness_macdonald() || cell.roughness_kanda());
+}
+
+/// A low and a high house in the west and again in the east. The corner of four cells is in their middle.
+TEST(Morphology, BuildingsOfACellCountOnceEach) {
+  scenes::FootprintsText houses;
+  for (const double east_m : {0.0, 150.0}) {
+    houses.add(building("low", 10.0), form_box(east_m, 0, east_m + 30, 20));
+    houses.add(building("high", 30.0), form_box(east_m + 40, 0, east_m + 50, 20));
+  }
+  std::size_t built = 0;
+  for (const CellMorphology& cell : FormTown(houses).cells(500.0)) {
+    if (cell.amounts.buildings == 0) continue;
+    ++built;
+    EXPECT_EQ(cell.amounts.buildings, 2U);
+    EXPECT_NEAR(cell.amounts.building_height_mean_m, 20.0, form_rounding_m2);
+    EXPECT_NEAR(cell.amounts.building_height_std_m, 10.0, form_rounding_m2);
+    EXPECT_NEAR(*cell.height_mean_m(), (600.0 * 10.0 + 200.0 * 30.0) / 800.0, form_rounding_m2);
+  }
+  EXPECT_EQ(built, 4U);
+}
+
+TEST(Morphology, IsTheSameForAnyNumberOfThreads) {
+  const Package package(PackedSample::shared().folder());
+  RunSettings one, many;
+  one.threads = 1;
+  many.threads = 4;
+  const auto a = morphology_of_cells(package, one), b = morphology_of_cells(package, many);
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_GT(amounts_together(a).wall_area_m2, 0.0);
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    EXPECT_EQ(a[n].cell, b[n].cell);
+    EXPECT_EQ(a[n].amounts.wall_area_m2, b[n].amounts.wall_area_m2);
+    EXPECT_EQ(a[n].amounts.height_moment_m4, b[n].amounts.height_moment_m4);
+    EXPECT_EQ(a[n].amounts.frontal_area_m2, b[n].amounts.frontal_area_m2);
+  }
+}
+
+TEST(Morphology, NeedsBuildingsThatAreCutAtTheBorders) {
+  const FormTown town = form_house();
+  EXPECT_THROW((void)morphology_of_cells(town.packed(13.0, AlignMode::none, Assign::whole)), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace farlod::library
