@@ -54,6 +54,9 @@ struct Quantities {
   /// The hours of sunshine: those of the positions at which nothing hides the sun's centre, and it shines on the receiver's
   /// front. Column `sunlit_h`; of no positions, as in a polar night, it is 0.
   std::optional<std::vector<SunPosition>> sun = {};
+  /// The same hours, of which crowns of trees take what they take of light, by the rule of `canopy`: column `sunlit_total_h`. Of
+  /// a city without trees it is `sunlit_h`. Needs `sun`.
+  bool sunlit_total = false;
   /// The light of a period, for the next three.
   std::optional<Light> light = {};
   /// What falls on the receiver in the period, in kWh/m²: columns `irradiation`, `irradiation_direct` of the sun,
@@ -116,7 +119,7 @@ struct Quantities {
   /// Those that are of the light of a period.
   [[nodiscard]] bool any_of_light() const { return irradiation || irradiance || illuminance || shade; }
   /// Those that crowns dim, where a package has some.
-  [[nodiscard]] bool any_dimmed_by_crowns() const { return any_of_light() || sky_component; }
+  [[nodiscard]] bool any_dimmed_by_crowns() const { return any_of_light() || sky_component || sunlit_total; }
   /// Those that are seen by rays against the whole city, crowns included.
   [[nodiscard]] bool any_seen_by_rays() const { return shadow_patches || view_factors || view_factors_below; }
   /// Those that know SkyWeight::cosine alone.

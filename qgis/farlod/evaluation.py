@@ -26,7 +26,7 @@ from .algorithm import FarlodAlgorithm, Values
 from .layer_files import save_source
 from .staging import Staging
 
-QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "shadow_patches",
+QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "sunlit_total", "shadow_patches",
               "irradiation", "irradiance", "illuminance", "shade", "sky_component", "view_factors", "view_factors_below",
               "svf_total", "svfaveg", "directional_vegetation", "shares"]
 QUANTITIES_HELP = (

@@ -60,7 +60,7 @@ std::vector<std::string> quantity_words_in(const RawQuantities& raw) {
 
 /// The name of the first column of a quantity.
 std::string first_column_of(const std::string& quantity) {
-  if (quantity == "sunlit") return "sunlit_h";
+  if (quantity.starts_with("sunlit")) return quantity + "_h";
   Quantities alone;
   const bool is_known = ask_for(quantity, alone);
   const std::vector<std::string> columns = is_known ? columns_of(alone) : std::vector<std::string>{};
@@ -73,7 +73,7 @@ bool fits_picture(const RawQuantities& raw) {
   std::set<std::string> besides;
   for (const std::string& word : quantity_words_in(raw))
     if (word != "svf") besides.insert(word);
-  if (!raw.sun.empty()) besides.insert("sunlit");
+  if (!raw.sun.empty() && !besides.contains("sunlit_total")) besides.insert("sunlit");
   if (raw.horizons > 0 && !besides.contains("horizon_distance")) besides.insert("horizon");
   if (raw.sky_patches > 0) besides.insert("sky_patches");
   return besides.size() <= 1;

@@ -66,13 +66,17 @@ std::string words_that(bool (*have_it)(const QuantityWord&), const char* before_
   return fmt::format("{}{}{}", fmt::join(words.begin(), words.end() - 1, ", "), before_last, words.back());
 }
 
+bool is_quantity(const std::string& word) {
+  Quantities alone;
+  return ask_for(word, alone);
+}
+
 void add(const std::string& word, const RawQuantities& raw, Quantities& quantities) {
   if (word == "svf") return;
   // Where the sun stands depends on the package
-  if (word == "sunlit") {
-    if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
-    return;
-  }
+  if (word.starts_with("sunlit") && raw.sun.empty() && is_quantity(word))
+    throw CLI::ValidationError("--quantity", word + " needs a day or a year: give --sun");
+  if (word == "sunlit") return;
   if (ask_for(word, quantities)) return;
   std::string words = "svf";
   for (const QuantityWord& known : quantity_words()) words.append(", ").append(known.word);
@@ -118,8 +122,8 @@ CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
 void add_sun_options(CLI::App& app, RawQuantities& raw) {
   app.add_option(
          "--sun", raw.sun,
-         "Hours of sunshine, were the sky clear: of a day, as 2026-06-21, or a year, as 2026. A picture of the sky above --at "
-         "shows the sun's path, too")
+         "Hours of sunshine, were the sky clear, of a day, as 2026-06-21, or a year, as 2026; where there are trees, past them "
+         "and through them, too. A picture of the sky above --at shows the sun's path")
       ->group("Quantities");
   app.add_option("--sun-step", raw.sun_step_minutes,
                  "Minutes from one position of the sun to the next (default: " + std::to_string(step_of_days) + " for a day, " +

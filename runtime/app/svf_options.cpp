@@ -383,7 +383,10 @@ void add_quantities_for(bool has_trees, SvfOptions& o) {
   Quantities& further = o.evaluation.further;
   add_for_solweig(*o.format, has_trees, further);
   const bool has_room = o.format->holds_bounds || (o.format->is_picture && o.source == ReceiverSource::grid);
-  if (!has_trees || o.names_quantities || !has_room || o.evaluation.max_error || o.evaluation.weight != SkyWeight::cosine) return;
+  const bool is_sky = o.source == ReceiverSource::at && o.format->is_picture;
+  if (!has_trees || !(has_room || is_sky)) return;
+  further.sunlit_total = further.sunlit_total || o.sunshine.has_value();
+  if ((o.names_quantities && !is_sky) || o.evaluation.max_error || o.evaluation.weight != SkyWeight::cosine) return;
   further.svf_total = true;
   further.svf_total_bounds = o.evaluation.bounds;
 }

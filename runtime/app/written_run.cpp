@@ -127,13 +127,23 @@ PointAnswers evaluate_named(const Package& package, const NamedPoints& named, co
   }
 }
 
+/// A further value of the place that is looked up from, if it was asked for.
+std::optional<float> value_of(const Hemisphere& hemisphere, const SvfOptions& options, std::string_view column) {
+  const std::vector<std::string> columns = columns_of(options.evaluation.further);
+  const auto found = std::ranges::find(columns, column);
+  if (found == columns.end()) return std::nullopt;
+  return hemisphere.further.at(static_cast<std::size_t>(found - columns.begin()));
+}
+
 /// The sun's way, and for how long it shines here.
 std::optional<SunOfSky> sun_of_sky(const Package& package, const SvfOptions& options, const Hemisphere& hemisphere) {
   if (!options.sunshine) return std::nullopt;
   SunOfSky sun = sun_courses_of_package(package.description(), *options.sunshine);
   const char* const period = options.sunshine->days == 1 ? "that day" : "in the year";
   sun.legend.push_back(fmt::format("Sunshine {}:", period));
-  sun.legend.push_back(fmt::format("{:.1f} h, were the sky clear", hemisphere.further.front()));
+  sun.legend.push_back(fmt::format("{:.1f} h, were the sky clear", *value_of(hemisphere, options, "sunlit_h")));
+  if (const auto hours = value_of(hemisphere, options, "sunlit_total_h"))
+    sun.legend.push_back(fmt::format("{:.1f} h past trees and through them", *hours));
   return sun;
 }
 
@@ -163,11 +173,12 @@ std::optional<LightOfSky> light_of_sky(const SvfOptions& options, const Hemisphe
   const Quantities& further = options.evaluation.further;
   if (!further.light) return std::nullopt;
   LightOfSky light{suns_of(*further.light), {"Irradiation in kWh/m²:"}};
-  const std::vector<std::string> columns = columns_of(further);
-  const auto first = static_cast<std::size_t>(std::ranges::find(columns, "irradiation") - columns.begin());
-  constexpr std::array<const char*, 4> words{"in all", "direct", "diffuse", "reflected"};
-  for (std::size_t n = 0; n < words.size(); ++n)
-    light.legend.push_back(fmt::format("{:#.4g} {}", hemisphere.further.at(first + n), words[n]));
+  constexpr std::array<std::pair<const char*, const char*>, 4> columns{{{"irradiation", "in all"},
+                                                                        {"irradiation_direct", "direct"},
+                                                                        {"irradiation_diffuse", "diffuse"},
+                                                                        {"irradiation_reflected", "reflected"}}};
+  for (const auto& [column, word] : columns)
+    light.legend.push_back(fmt::format("{:#.4g} {}", *value_of(hemisphere, options, column), word));
   return light;
 }
 
@@ -313,7 +324,8 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
   const PackageDescription& city = package.description();
   const std::string crs = city.epsg ? "EPSG:" + std::to_string(*city.epsg) : city.crs_name;
   const SkyCaption caption{quantity_name(options.evaluation.weight),
-                           fmt::format("{} ({}), {:.2f} m above sea level", coordinates, crs, hemisphere->height_m)};
+                           fmt::format("{} ({}), {:.2f} m above sea level", coordinates, crs, hemisphere->height_m),
+                           value_of(*hemisphere, options, "svf_total")};
   WrittenRun written{hemisphere->summary, {options.output}};
   const std::optional<SunOfSky> sun = sun_of_sky(package, options, *hemisphere);
   const std::optional<LightOfSky> light = light_of_sky(options, *hemisphere);

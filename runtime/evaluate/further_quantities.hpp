@@ -96,7 +96,7 @@ class FurtherQuantities {
   }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
   /// Whether something is made of light, which crowns dim.
-  [[nodiscard]] bool needs_dimmed_sky() const { return needs_light() || quantities_.shade; }
+  [[nodiscard]] bool needs_dimmed_sky() const { return needs_light() || quantities_.shade || quantities_.sunlit_total; }
   /// Whether crowns count for anything.
   [[nodiscard]] bool needs_crowns() const { return crowns_.count > 0 || needs_dimmed_sky(); }
 
@@ -124,6 +124,7 @@ class FurtherQuantities {
   void add_distances(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_sunlit_total(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_shadow_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_irradiation(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_irradiance(const ProfiledPacket& packet, QuantityColumns& columns) const;
@@ -185,6 +186,9 @@ class FurtherQuantities {
                                      const ProfiledPacket& packet, std::size_t lane) const;
   [[nodiscard]] std::array<double, ReceiverPacket::lanes> hours_of(const std::vector<SunAtAzimuth>& sun,
                                                                    const ProfiledPacket& packet) const;
+  /// The same, less what crowns take of each.
+  [[nodiscard]] std::array<double, ReceiverPacket::lanes> hours_past_crowns(const std::vector<SunAtAzimuth>& sun,
+                                                                            const ProfiledPacket& packet) const;
 
   Quantities quantities_;
   std::size_t size_;

@@ -152,6 +152,13 @@ float with_the_sky_of(float svf, float seen, float from_profile, float on_level)
   return std::max(0.0F, from_profile + (svf - seen) * of_missing);
 }
 
+/// Rounding may leave less than nothing.
+void add_hours(const std::array<double, packet_lanes>& hours, QuantityColumns& columns) {
+  Lanes column;
+  std::transform(hours.begin(), hours.end(), column.begin(), [](double h) { return static_cast<float>(std::max(h, 0.0)); });
+  columns.add(column);
+}
+
 }  // namespace
 
 std::size_t FurtherQuantities::nearest_azimuth(Angle azimuth) const {
@@ -240,17 +247,24 @@ std::array<double, packet_lanes> FurtherQuantities::hours_of(const std::vector<S
 }
 
 void FurtherQuantities::add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const std::array<double, packet_lanes> hours = hours_of(sun_, packet);
-  Lanes column;
-  std::transform(hours.begin(), hours.end(), column.begin(), [](double h) { return static_cast<float>(h); });
-  columns.add(column);
+  add_hours(hours_of(sun_, packet), columns);
+}
+
+void FurtherQuantities::add_sunlit_total(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  add_hours(hours_past_crowns(sun_, packet), columns);
+}
+
+std::array<double, packet_lanes> FurtherQuantities::hours_past_crowns(const std::vector<SunAtAzimuth>& sun,
+                                                                      const ProfiledPacket& packet) const {
+  std::array<double, packet_lanes> hours = hours_of(sun, packet);
+  for (const DimmedSlopes& d : packet.dimmed)
+    if (const SunAtAzimuth& at = sun[d.azimuth]; !at.slopes.empty())
+      hours[d.lane] -= static_cast<double>(d.lost) * hours_between(d.low, d.high, at, d.azimuth, packet, d.lane);
+  return hours;
 }
 
 FurtherQuantities::Lanes FurtherQuantities::shade_of(const SunOfTime& time, const ProfiledPacket& packet) const {
-  std::array<double, packet_lanes> hours = hours_of(time.at_azimuths, packet);
-  for (const DimmedSlopes& d : packet.dimmed)
-    if (const SunAtAzimuth& sun = time.at_azimuths[d.azimuth]; !sun.slopes.empty())
-      hours[d.lane] -= static_cast<double>(d.lost) * hours_between(d.low, d.high, sun, d.azimuth, packet, d.lane);
+  const std::array<double, packet_lanes> hours = hours_past_crowns(time.at_azimuths, packet);
   Lanes shade;
   for (std::size_t l = 0; l < packet_lanes; ++l)
     shade[l] = time.hours > 0.0 ? static_cast<float>(std::clamp(1.0 - hours[l] / time.hours, 0.0, 1.0))

@@ -84,6 +84,10 @@ void describe_sunlit(const Quantities&, Columns& columns) {
   columns.push_back({"sunlit_h", "h", "hours at which the middle of the sun is seen, were the sky clear"});
 }
 
+void describe_sunlit_total(const Quantities&, Columns& columns) {
+  columns.push_back({"sunlit_total_h", "h", "hours of sunshine past the crowns of trees and through them, were the sky clear"});
+}
+
 void describe_shadow_patches(const Quantities&, Columns& columns) {
   const std::array<std::pair<const char*, const char*>, shadow_matrix_count> matrices{
       {{"shadow_", "nothing solid hides"},
@@ -136,6 +140,10 @@ void ask_for_horizons(Quantities& q) {
   if (q.horizons == 0) q.horizons = usual_horizons;
 }
 
+void ask_for_sun(Quantities& q) {
+  if (!q.sun) q.sun.emplace();
+}
+
 constexpr auto table = std::to_array<QuantityRow>({
     {.quantity = Quantity::svf_solid,
      .word = {.word = "svf_solid", .meaning = "share of the solid angle"},
@@ -183,12 +191,19 @@ constexpr auto table = std::to_array<QuantityRow>({
     {.quantity = Quantity::sunlit,
      .word = {.word = "sunlit", .meaning = "hours of sunshine", .is_weighted = false},
      .is_asked = [](const Quantities& q) { return q.sun.has_value(); },
-     .ask =
-         [](Quantities& q) {
-           if (!q.sun) q.sun.emplace();
-         },
+     .ask = ask_for_sun,
      .describe = describe_sunlit,
      .add = &FurtherQuantities::add_sunlit},
+    {.quantity = Quantity::sunlit_total,
+     .word = {.word = "sunlit_total", .meaning = "those past trees and through them", .is_weighted = false},
+     .is_asked = is_flagged<&Quantities::sunlit_total>,
+     .ask =
+         [](Quantities& q) {
+           ask_for_sun(q);
+           q.sunlit_total = true;
+         },
+     .describe = describe_sunlit_total,
+     .add = &FurtherQuantities::add_sunlit_total},
     {.quantity = Quantity::shadow_patches,
      .word = {.word = "shadow_patches", .meaning = "what hides each of UMEP's 153, as bits", .is_weighted = false},
      .is_asked = is_flagged<&Quantities::shadow_patches>,

@@ -21,6 +21,7 @@ enum class Quantity : std::uint8_t {
   horizon_distance,
   sky_patches,
   sunlit,
+  sunlit_total,
   shadow_patches,
   irradiation,
   irradiance,

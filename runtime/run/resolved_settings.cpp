@@ -55,6 +55,8 @@ bool knows_illuminance(const LightInterval& interval) { return interval.direct_n
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
+  if (q.sunlit_total && !q.sun)
+    throw InvalidArgument("further.sunlit_total is of the hours of further.sun, which has no value: give positions of the sun");
   if (q.horizon_distances && q.horizons == 0)
     throw InvalidArgument("further.horizon_distances are those of horizons, and further.horizons is 0: give their number");
   for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) check(sun);

@@ -110,6 +110,28 @@ TEST_F(TreeTown, HasTheTotalWhereNobodySaysWhatToCompute) {
   EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.asc --grid 8").out, testing::Not(HasSubstr("crowns")));
 }
 
+TEST_F(TreeTown, HasHoursOfSunshinePastItsCrownsBesideThoseOfTheOpen) {
+  const std::string day = "farlod-svf b.farlod -o o.csv --sun 2026-06-21 --at " + under_trees;
+  folder.must(day);
+  const CsvTable row = table("o.csv");
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "sunlit_h", "sunlit_total_h"));
+  EXPECT_LT(row.number(0, "sunlit_total_h"), row.number(0, "sunlit_h") - 0.5) << "a tree stands to the side";
+  folder.must(day + " --transmissivity 1");
+  EXPECT_EQ(table("o.csv").number(0, "sunlit_total_h"), row.number(0, "sunlit_h"));
+  folder.must("farlod-svf a.farlod -o o.csv --sun 2026-06-21 --at " + under_trees);
+  EXPECT_THAT(table("o.csv").header(), testing::Not(testing::Contains("sunlit_total_h")));
+  expect_refusal(folder.run("farlod-svf b.farlod -o o.csv --quantity sunlit_total --at " + under_trees), exit_usage,
+                 {"sunlit_total needs a day or a year", "--sun"});
+}
+
+TEST_F(TreeTown, ThePictureOfTheSkySaysWhatPassesItsCrowns) {
+  folder.must("farlod-svf b.farlod -o sky.svg --sun 2026-06-21 --at " + under_trees);
+  EXPECT_THAT(folder.text_of("sky.svg"),
+              testing::AllOf(HasSubstr(", with trees 0."), HasSubstr("h past trees and through them")));
+  folder.must("farlod-svf a.farlod -o sky.svg --sun 2026-06-21 --at " + under_trees);
+  EXPECT_THAT(folder.text_of("sky.svg"), testing::Not(HasSubstr("trees")));
+}
+
 TEST_F(TreeTown, PicturesShowTheTotalWhereNobodySaysWhatToDraw) {
   const auto picture_of = [&](const std::string& arguments) {
     folder.must("farlod-svf b.farlod --grid 8 -o " + arguments);

@@ -264,10 +264,13 @@ TEST(Irradiation, OfTheSunBehindACrownIsWhatPassesIt) {
     for (const auto& [azimuth_deg, elevation_deg, passes] : {std::tuple(180.0, 31.0, 0.03), std::tuple(180.0, 60.0, 1.0),
                                                              std::tuple(180.0, 10.0, 1.0), std::tuple(0.0, 31.0, 1.0)}) {
       Quantities quantities = irradiation_of(hour_of(azimuth_deg, elevation_deg, 1000, 0));
-      quantities.shade = true;
+      quantities.shade = quantities.sunlit_total = true;
+      quantities.sun = quantities.light->intervals.front().sun;
       const auto got = packed.columns(engine, quantities);
       EXPECT_NEAR(got.at("irradiation_direct"), passes * std::sin(elevation_deg * pi / 180.0), tolerance_of_light);
       EXPECT_NEAR(got.at("shade"), 1.0 - passes, 1e-6);
+      EXPECT_NEAR(got.at("sunlit_h"), quantities.sun->front().hours, 1e-6);
+      EXPECT_NEAR(got.at("sunlit_total_h"), passes * quantities.sun->front().hours, 1e-6);
     }
 }
 

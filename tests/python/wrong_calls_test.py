@@ -350,6 +350,6 @@ def test_types_name_the_words_of_the_library():
     assert {name: get_args(words) for name, words in types.items()} == {name: runtime.words[name] for name in types}
     assert ("none", *get_args(_settings.SkyPatches)) == runtime.words["sky_patches"]
     # Others have a keyword or a method of their own
-    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "irradiation"}
+    others = {"horizon", "horizon_distance", "sky_patches", "sunlit", "sunlit_total", "irradiation"}
     assert others <= set(runtime.words["quantity"])
     assert get_args(_settings.Quantity) == tuple(word for word in runtime.words["quantity"] if word not in others)

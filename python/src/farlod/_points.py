@@ -272,6 +272,7 @@ class PointsOfCity(OpenCity):
         elevation: Any,
         hours: Any,
         *,
+        trees: bool = False,
         normals: Any = None,
         height: float = 1.5,
         above: Above = "ground",
@@ -287,6 +288,8 @@ class PointsOfCity(OpenCity):
             Where the sun is, in degrees; azimuths clockwise from true north, as pvlib has them.
         hours : array_like of float, (m,)
             The time that each position stands for.
+        trees : bool
+            Whether crowns of trees take of each hour what they take of light (``canopy_rule``, ``transmissivity`` …).
         height, above, max_error, **options : as for :meth:`svf`
 
         Returns
@@ -300,9 +303,9 @@ class PointsOfCity(OpenCity):
         """
         receivers = self._receivers(points, normals)
         sun = (azimuth, elevation, hours)
-        evaluation = Evaluation(height=height, above=above, max_error=max_error, sun=sun, options=options)
+        evaluation = Evaluation(height=height, above=above, max_error=max_error, sun=sun, sunlit_total=trees, options=options)
         table = self._answers(receivers, evaluation)["further"]
-        return _labelled(np.ascontiguousarray(table[:, 0]), receivers)
+        return _labelled(np.ascontiguousarray(table[:, -1]), receivers)
 
 
 def _labelled(values: Floats, receivers: Receivers) -> Values:

@@ -63,7 +63,7 @@ class Options(TypedDict, total=False):
     canopy_rule : {"umep", "crowns", "beer"}
         How light passes the crowns of trees: a share in each direction that meets any, that share of each one that is met,
         or by the length within them. Of the quantities ``"svf_total"``, ``"svfaveg"``, ``"directional_vegetation"`` and
-        ``"shares"``, as the next three.
+        ``"shares"``, of light, and of hours of sunshine with ``trees``, as the next three.
     leaf_off : bool
         All crowns are bare but those that are known to be evergreen.
     transmissivity : float
@@ -129,6 +129,7 @@ class Evaluation:
     horizon_distances: bool = False
     sky_patches: str = "none"
     sun: tuple[Any, Any, Any] | None = None
+    sunlit_total: bool = False
     light: Any = None  #: a farlod.Light
     region: Any = None
     verify: int = 0
@@ -153,6 +154,8 @@ class Evaluation:
         self._set_canopy(further)
         if self.sun is not None:
             further.set_sun(*(_arguments.floats("sun", values).ravel() for values in self.sun))
+        if _arguments.flag("trees", self.sunlit_total):
+            further.ask("sunlit_total")
         if self.light is not None:
             self._ask_for_light(further)
         return further

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/picture/sky_picture.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +13,6 @@
 #include "base/expects.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/sky_light.hpp"
-#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {
@@ -285,6 +286,9 @@ PagePoint add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjecti
   return {x, y + 12.0};
 }
 
+/// As the terminal rounds it.
+std::string four_digits(float svf) { return fmt::format("{:.4f}", svf); }
+
 }  // namespace
 
 bool is_hidden(const Hemisphere& hemisphere, const HemisphereDirection& d) {
@@ -341,7 +345,8 @@ Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, st
 Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption,
                  const std::optional<SunOfSky>& sun, const std::optional<LightOfSky>& light) {
   const std::string name = caption.quantity == "svf" ? "Sky view factor (svf) " : "Solid angle share of the sky (svf_solid) ";
-  Drawing drawing{sky_picture_size, name + svf_decimal(hemisphere.svf).substr(0, 6)};
+  const std::string with_trees = caption.svf_total ? ", with trees " + four_digits(*caption.svf_total) : "";
+  Drawing drawing{sky_picture_size, name + four_digits(hemisphere.svf) + with_trees};
   drawing.shapes.emplace_back(Text{{24.0, 46.0}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(Text{{24.0, 74.0}, caption.place, text_height, Alignment::left, muted});
   drawing.shapes.emplace_back(Image{{disk_left, disk_top}, draw_sky_disk(hemisphere, projection, disk_edge)});

@@ -41,8 +41,9 @@ struct DiskPoint {
 
 /// What the legend says besides.
 struct SkyCaption {
-  std::string quantity;  ///< "svf" or "svf_solid"
-  std::string place;     ///< coordinates and CRS
+  std::string quantity;                 ///< "svf" or "svf_solid"
+  std::string place;                    ///< coordinates and CRS
+  std::optional<float> svf_total = {};  ///< of a city with trees
 };
 
 /// The sun's way through a day.

@@ -32,9 +32,9 @@ struct Change {
   [[maybe_unused]] auto& [above, height_m] = placing;
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
       evaluation;
-  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, light, irradiation, irradiance,
-                          illuminance, shade, sky_component, view_factors, view_factors_below, svf_total, svf_total_bounds,
-                          svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
+  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, sunlit_total, light, irradiation,
+                          irradiance, illuminance, shade, sky_component, view_factors, view_factors_below, svf_total,
+                          svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
   // The intervals follow from the request, the package and the file
@@ -142,6 +142,7 @@ TEST_F(ResultKey, HasEachQuantity) {
                          {"irradiance", further(&Quantities::irradiance)},
                          {"shade", further(&Quantities::shade)},
                          {"sky_component", further(&Quantities::sky_component)},
+                         {"sunlit_total", further(&Quantities::sunlit_total)},
                          {"view_factors", further(&Quantities::view_factors)},
                          {"view_factors_below", further(&Quantities::view_factors_below)},
                          {"sun of a day", sun(2026y / 6 / 21, 1, 5min)},
