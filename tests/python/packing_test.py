@@ -158,6 +158,9 @@ def test_trees_in_memory(tmp_path: Path) -> None:
     described = farlod.Trees(trees, height="top", crown="wide", trunk_ratio=0.5)
     city = farlod.pack(frame, tmp_path / "trees.farlod", heights="h", trees=described)
     assert city.report.facts["crowns_of_trees"] == 3 and not city.report.problems
+    under, almost_zenith = [[690020.5, 5.3e6 + 25.5]], ([180.0], [89.0], [2.0])
+    assert city.sunlit(under, *almost_zenith) == 2.0
+    assert city.sunlit(under, *almost_zenith, trees=True, transmissivity=0.25) == pytest.approx(0.5)
     with pytest.warns(farlod.ProblemsWarning, match="120 tree_size_missing"):
         other = farlod.pack(frame, tmp_path / "others.farlod", heights="h", trees=trees.drop(columns=["top", "wide"]))
     assert other.report.facts["crowns_of_trees"] == 3
