@@ -22,17 +22,17 @@ inline constexpr std::size_t wind_directions = 16;
 /// and for `buildings`. What lies below the ground counts nowhere.
 struct CellAmounts {
   double plan_area_m2 = 0.0;  ///< of the cell, with its buildings
-  /// Of the ground that roofs, and walls that lean back, cover seen from above: what several cover counts once.
+  /// The ground that roofs, and walls that lean back, cover seen from above: what several cover counts once.
   double building_plan_area_m2 = 0.0;
   double roof_area_m2 = 0.0;  ///< of the roofs seen from above, along their slopes
-  /// Of the outer sides of walls, without party walls: where two walls stand back to back, neither counts.
+  /// The outer sides of walls, without party walls: where two walls stand back to back, neither counts.
   double wall_area_m2 = 0.0;
-  /// Of those walls and roofs, seen from where the wind comes from, as if nothing stood in front of anything.
+  /// Those walls and roofs, seen from where the wind comes from, as if nothing stood in front of anything.
   std::array<double, wind_directions> frontal_area_m2{};
   /// The integrals of the height of what is seen from above over the ground below it, and of its square, over the building plan
   /// area; the largest height.
   double volume_m3 = 0.0, height_moment_m4 = 0.0, height_max_m = 0.0;
-  /// Of the buildings that are seen from above in the cell, each by its mean height there: number, mean, standard deviation.
+  /// The buildings that are seen from above in the cell, each by its mean height there: number, mean, standard deviation.
   std::size_t buildings = 0;
   double building_height_mean_m = 0.0, building_height_std_m = 0.0;
 };
@@ -56,7 +56,8 @@ struct CellMorphology {
   /// All surface in contact with the air over the plan area (Voogt & Oke 1997): walls, roofs, and the ground between them as if
   /// it were level.
   [[nodiscard]] FARLOD_EXPORT double complete_aspect_ratio() const;
-  /// Of the canyon that has as much wall and ground (Masson 2000): half the wall area over the plan area without buildings.
+  /// The ratio of the canyon that has as much wall and ground (Masson 2000): half the wall area over the plan area without
+  /// buildings.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_to_width() const;
   /// Mean and standard deviation over the building plan area.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_mean_m() const;

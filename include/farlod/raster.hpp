@@ -83,10 +83,7 @@ struct Raster {
   EvaluationSummary summary;
 };
 
-/// Evaluates the sky view factors of a raster's pixels: tile by tile, for rasters of any size, or as a whole. Of a raster that
-/// meets the city, pixels beyond the grid have sky view factors as points have them, up to 200 m from the north-up rectangle
-/// around it, where the scene of the whole city takes no more than 1 GiB; not with bounds, a largest error, or quantities other
-/// than svf_total, view factors and shadow patches, which take long there. Throws
+/// Evaluates the sky view factors of a raster's pixels: tile by tile, for rasters of any size, or as a whole. Throws
 /// InvalidArgument, Cancelled, LimitReached, PackageUnusable, PackageDamaged.
 FARLOD_EXPORT EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
                                                 const EvaluationSettings& settings, const OnRasterTile& on_tile,

@@ -169,7 +169,7 @@ RequestedQuantities resolved(const RawQuantities& raw, const OutputFormat* forma
   if (raw.sky_patches > 0)
     requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;
   if (!raw.sun.empty()) requested.sunshine = period_of(raw.sun, raw.sun_step_minutes);
-  requested.further.canopy = canopy_of(raw, (format != nullptr && format->is_for_solweig) ||
+  requested.further.canopy = canopy_of(raw, (format != nullptr && format->is_for_solweig) || requested.sunshine ||
                                                 requested.further.any_of_canopies() || requested.further.any_dimmed_by_crowns());
   if (raw.sun.empty() && raw.sun_step_minutes > 0) throw CLI::ValidationError("--sun-step", "it goes with --sun");
   return requested;

@@ -128,10 +128,6 @@ void require_below_limit(double bytes, const RunSettings& run, const std::string
 
 std::size_t cells_in_flight(std::size_t threads) { return 4 * threads; }
 
-double bytes_of_whole_scene(const package::Manifest& manifest) {
-  return static_cast<double>(manifest.triangles) * triangle_bytes;
-}
-
 /// The cells in flight lie side by side along the curve, and their neighborhoods touch four blocks at the most: with fewer, each
 /// cell would read them anew; more would only lie there, since the curve leaves a block when all of its cells are done.
 std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest) {

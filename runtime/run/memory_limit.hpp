@@ -22,9 +22,6 @@ struct MemoryNeeds {
 /// Cells that are worked on at the same time.
 [[nodiscard]] std::size_t cells_in_flight(std::size_t threads);
 
-/// Bytes of the scene of the whole city.
-[[nodiscard]] double bytes_of_whole_scene(const package::Manifest& manifest);
-
 /// Whether some of these cells are answered by tracing everything: they lie outside of the grid, or their far maps are missing.
 [[nodiscard]] bool any_traces_whole_city(const PackageReader& package, Engine engine, std::span<const Cell> cells);
 

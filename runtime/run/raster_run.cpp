@@ -44,22 +44,6 @@ void require_usable(const Box2d& part, double step_m) {
     throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
 }
 
-/// Whether the rays of a sky view factor tell all that is asked for. Beyond the grid, other quantities take tens of thousands of
-/// rays each, and bounds a hundredth of a second.
-bool is_told_by_rays_of_svf(const ResolvedSettings& settings) {
-  Quantities others = settings.sky.further;
-  others.svf_total = others.view_factors = others.view_factors_below = others.shadow_patches = false;
-  return !settings.bounds && !settings.sky.allowed_error && !others.any();
-}
-
-/// Beyond the grid there are no far maps, and the whole city hides the sky: pixels there have answers where it takes no more than
-/// a small part of a machine, and no more time than others do. It depends on the package and on what is asked for alone.
-BeyondGrid beyond_grid_of(const package::Manifest& manifest, const ResolvedSettings& settings) {
-  constexpr double most_bytes = 1 << 30;
-  const bool is_small = bytes_of_whole_scene(manifest) <= most_bytes;
-  return is_small && is_told_by_rays_of_svf(settings) ? BeyondGrid::is_answered : BeyondGrid::is_left_out;
-}
-
 TileRange tiles_over(const PixelRange& pixels) {
   return {{pixels.row_begin / raster_tile_edge, pixels.column_begin / raster_tile_edge},
           {tiles_along(pixels.row_end), tiles_along(pixels.column_end)}};
@@ -139,7 +123,7 @@ class RasterRun {
         placing_(resolved(placing)),
         package_(package),
         plan_(checked(plan)),
-        receivers_(reader().manifest(), plan, settings_.region.get(), beyond_grid_of(reader().manifest(), settings_)),
+        receivers_(reader().manifest(), plan, settings_.region.get()),
         cells_(along_hilbert_curve(receivers_.cells(), reader().grid().block_edge)),
         tiles_(tiles_of_cells(receivers_, cells_)),
         further_bands_(columns_of(settings_.sky.further).size()) {
@@ -366,7 +350,7 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const Placing where = resolved(placing);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
-  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get(), beyond_grid_of(manifest, resolved_settings));
+  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get());
   const std::vector<Cell> cells = cells_in(window, receivers, in_use.reader().grid());
   MemoryNeeds needs = needs_of(plan, {}, in_use.reader().grid(), 0);
   needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);

@@ -69,7 +69,7 @@ TEST_F(WideTown, TheLimitThatARunAsksForIsKept) {
 }
 
 TEST_F(WideTown, WhatNeedsTheWholeCityIsRefusedWhereItHasNoRoom) {
-  const std::string raster = "-o o.asc --grid 20 --rays 50 --bbox 499900,5499900,500100,5500100";
+  const std::string raster = "-o o.asc --grid 20 --rays 50";
   const int mib = limit_asked_for(raster);
   folder.must("farlod-svf a.farlod " + raster + limit(mib));
   for (const std::string whole : {" --engine exact", " --verify 3"}) {
@@ -78,11 +78,11 @@ TEST_F(WideTown, WhatNeedsTheWholeCityIsRefusedWhereItHasNoRoom) {
     folder.must("farlod-svf a.farlod " + raster + whole);
     folder.must("farlod-svf a.farlod " + raster + whole + limit(1000));
   }
-  for (const std::string beyond : {"-o o.csv --at 510000,5500000", "-o o.asc --grid 20 --rays 50"}) {
-    expect_refusal(folder.run("farlod-svf a.farlod " + beyond + limit(mib)), exit_limit_reached, {"points beyond the grid"});
-    folder.must("farlod-svf a.farlod " + beyond);
-    folder.must("farlod-svf a.farlod " + beyond + limit(limit_asked_for(beyond)));
-  }
+  const std::string beyond = "-o o.csv --at 510000,5500000";
+  expect_refusal(folder.run("farlod-svf a.farlod " + beyond + limit(mib)), exit_limit_reached, {"points beyond the grid"});
+  folder.must("farlod-svf a.farlod " + beyond);
+  // What is asked for is enough
+  folder.must("farlod-svf a.farlod " + beyond + limit(limit_asked_for(beyond)));
 }
 
 /// An output of each format, with the receivers that go with it.

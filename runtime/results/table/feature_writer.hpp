@@ -41,7 +41,7 @@ struct FeatureRow {
   std::optional<double> height_m;  ///< likewise
   std::vector<FieldValue> values;  ///< as many as FeatureLayer::fields
   std::vector<SurfacePolygon> polygons = {};
-  /// Of an area: its corners, counter-clockwise, the first not again at the end. It is level, without heights.
+  /// Corners of an area, counter-clockwise, the first not again at the end. It is level, without heights.
   std::vector<Point2d> outline = {};
 };
 

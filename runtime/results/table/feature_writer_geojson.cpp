@@ -67,7 +67,8 @@ class GeojsonWriter final : public FeatureWriter {
   [[nodiscard]] std::size_t add_ring(const std::vector<Point3d>& corners);
   void append_place(std::string& json, std::size_t place) const;
   void append_ring(std::string& json, std::size_t first, std::size_t corners) const;
-  /// `place` is its first one, and is moved behind its last one.
+  /// `place` is the first one, and is moved behind the last one; so in the next function.
+  void append_rings(std::string& json, const std::vector<std::size_t>& corners_of_rings, std::size_t& place) const;
   void append_geometry(std::string& json, const Waiting& feature, std::size_t& place) const;
   void write_waiting();
 
@@ -153,6 +154,16 @@ void GeojsonWriter::append_ring(std::string& json, std::size_t first, std::size_
   json += "]";
 }
 
+void GeojsonWriter::append_rings(std::string& json, const std::vector<std::size_t>& corners_of_rings, std::size_t& place) const {
+  json += "[";
+  for (std::size_t r = 0; r < corners_of_rings.size(); ++r) {
+    if (r > 0) json += ", ";
+    append_ring(json, place, corners_of_rings[r]);
+    place += corners_of_rings[r];
+  }
+  json += "]";
+}
+
 void GeojsonWriter::append_geometry(std::string& json, const Waiting& feature, std::size_t& place) const {
   if (geometry_ == LayerGeometry::points) {
     json += R"({"type": "Point", "coordinates": )";
@@ -164,24 +175,13 @@ void GeojsonWriter::append_geometry(std::string& json, const Waiting& feature, s
     json += "null";
     return;
   }
-  if (geometry_ == LayerGeometry::areas) {
-    json += R"({"type": "Polygon", "coordinates": [)";
-    append_ring(json, place, feature.polygons[0][0]);
-    place += feature.polygons[0][0];
-    json += "]}";
-    return;
-  }
-  json += R"({"type": "MultiPolygon", "coordinates": [)";
+  const bool is_area = geometry_ == LayerGeometry::areas;
+  json += is_area ? R"({"type": "Polygon", "coordinates": )" : R"({"type": "MultiPolygon", "coordinates": [)";
   for (std::size_t n = 0; n < feature.polygons.size(); ++n) {
-    json += n == 0 ? "[" : ", [";
-    for (std::size_t r = 0; r < feature.polygons[n].size(); ++r) {
-      if (r > 0) json += ", ";
-      append_ring(json, place, feature.polygons[n][r]);
-      place += feature.polygons[n][r];
-    }
-    json += "]";
+    if (n > 0) json += ", ";
+    append_rings(json, feature.polygons[n], place);
   }
-  json += "]}";
+  json += is_area ? "}" : "]}";
 }
 
 void GeojsonWriter::write_waiting() {

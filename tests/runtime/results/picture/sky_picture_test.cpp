@@ -124,6 +124,16 @@ Pixel pixel_of_sun(int hour) {
   return equidistant_pixel(sun.azimuth.degrees(), sun.elevation.degrees());
 }
 
+TEST(SkyPicture, SaysTheSkyViewFactorRoundedAndWithTrees) {
+  Hemisphere hemisphere = basin_with_a_wall_in_the_east();
+  hemisphere.svf = 0.64406F;
+  const auto title_of = [&](std::optional<float> svf_total) {
+    return draw_sky(hemisphere, SkyProjection::equidistant, {"svf", "", svf_total}, {}, {}).title;
+  };
+  EXPECT_EQ(title_of({}), "Sky view factor (svf) 0.6441");
+  EXPECT_EQ(title_of(0.163F), "Sky view factor (svf) 0.6441, with trees 0.1630");
+}
+
 TEST(SunInThePicture, HasADotWhereTheSunIsAtEachFullHour) {
   const Picture with = with_sun(longest_day()), without = with_sun({});
   for (const int hour : {11, 12, 14, 15}) {  // above 30° in the south and the west
