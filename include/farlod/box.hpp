@@ -25,11 +25,6 @@ struct Box2d {
   }
 };
 
-/// What two boxes have in common; empty where they do not meet.
-[[nodiscard]] constexpr Box2d common_part(const Box2d& a, const Box2d& b) {
-  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}, {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
-}
-
 /// A box and all that is no farther from it along either axis.
 [[nodiscard]] constexpr Box2d grown(const Box2d& box, double margin_m) {
   return {{box.low.x - margin_m, box.low.y - margin_m}, {box.high.x + margin_m, box.high.y + margin_m}};

@@ -212,7 +212,7 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
 Box2d box_of(const std::string& text, const std::filesystem::path& package) {
   if (text == "city") return Package(package).description().city_projected;
   if (text == "grid") return Package(package).description().outline_projected;
-  const auto n = numbers_in(text, "--bbox", "X0,Y0,X1,Y1");
+  const auto n = numbers_in(text, "--bbox", "X0,Y0,X1,Y1, city or grid");
   if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
     throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
   constexpr double farthest_m = 1e8;  // no map is as large

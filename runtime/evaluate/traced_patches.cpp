@@ -37,14 +37,6 @@ class PacketPatches {
   std::array<MatrixColumns, shadow_matrix_count> matrices_{};
 };
 
-Occluder::Directions same_for_all(const Point3f& direction) {
-  Occluder::Directions directions;
-  directions.x.fill(direction.x);
-  directions.y.fill(direction.y);
-  directions.z.fill(direction.z);
-  return directions;
-}
-
 /// Without crowns, whether something is met will do, and not where.
 void trace_patch(const PatchScene& scene, const RayOrigins& origins, const Point3f& direction, std::size_t patch,
                  std::uint32_t wanted, PacketPatches& patches) {
@@ -59,7 +51,8 @@ void trace_patch(const PatchScene& scene, const RayOrigins& origins, const Point
   std::uint32_t solid = 0;
   for (std::size_t l = 0; l < RayOrigins::lanes; ++l) solid |= ends[l] < std::numeric_limits<float>::infinity() ? 1U << l : 0U;
   // A crown that is met before the end of a ray hides what is solid there, or the sky where the ray has no end
-  const std::uint32_t crowns = scene.crowns->met_before(ends, origins, same_for_all(direction), least_distance_m, wanted);
+  const std::uint32_t crowns =
+      scene.crowns->met_before(ends, origins, Occluder::Directions::all_of(direction), least_distance_m, wanted);
   patches.add(ShadowMatrix::building, patch, ~solid);
   patches.add(ShadowMatrix::vegetation, patch, ~(crowns & ~solid));
   patches.add(ShadowMatrix::vegetation_before_building, patch, ~(crowns & solid));

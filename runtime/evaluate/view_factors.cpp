@@ -56,14 +56,6 @@ struct PartsOfView {
 };
 using PartsOfPacket = std::array<PartsOfView, RayOrigins::lanes>;
 
-Occluder::Directions same_for_all_lanes(const Point3f& direction) {
-  Occluder::Directions directions;
-  directions.x.fill(direction.x);
-  directions.y.fill(direction.y);
-  directions.z.fill(direction.z);
-  return directions;
-}
-
 void look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towards, std::size_t count, PartsOfPacket& parts) {
   const Point3f direction = rounded(towards);
   const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
@@ -72,7 +64,7 @@ void look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towa
   const std::uint32_t crowns =
       scene.crowns == nullptr
           ? 0
-          : scene.crowns->met_before(hits.distances, origins, same_for_all_lanes(direction), least_distance_m, wanted);
+          : scene.crowns->met_before(hits.distances, origins, Occluder::Directions::all_of(direction), least_distance_m, wanted);
   for (std::size_t l = 0; l < count; ++l) {
     const bool is_free = hits.distances[l] == std::numeric_limits<float>::infinity();
     // The city ends where its ground does; the ground goes on

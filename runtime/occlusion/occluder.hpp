@@ -71,6 +71,13 @@ class Occluder {
   /// The same, each ray with a direction of its own: neighboring directions, as origins are neighbors.
   struct Directions {
     alignas(64) std::array<float, RayOrigins::lanes> x{}, y{}, z{};
+    [[nodiscard]] static Directions all_of(const Point3f& direction) {
+      Directions directions;
+      directions.x.fill(direction.x);
+      directions.y.fill(direction.y);
+      directions.z.fill(direction.z);
+      return directions;
+    }
   };
   [[nodiscard]] std::uint32_t blocked(const RayOrigins& origins, const Directions& directions, float begin,
                                       std::uint32_t wanted) const;

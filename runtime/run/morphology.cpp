@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farlod/morphology.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 
-#include "base/cancellation.hpp"
 #include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "run/cell_amounts.hpp"
 #include "run/cell_faces.hpp"
+#include "run/cells_in_parallel.hpp"
 #include "run/facing.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
@@ -111,18 +107,8 @@ std::vector<CellMorphology> morphology_of_cells(const Package& package, const Ru
                  "describing cells", "pack the city in larger cells");
   const WindDirections winds = winds_of(reader.manifest());
   std::vector<CellMorphology> cells(count);
-  std::mutex mutex;
-  std::size_t done = 0;
-  oneapi::tbb::task_arena arena(static_cast<int>(thread_count(run)));
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
-      throw_if_cancelled(run.stop);
-      cells[n] = morphology_of(reader, reader.grid().cells.cell_at(n), winds);
-      if (!run.on_progress) return;
-      const std::lock_guard lock(mutex);
-      run.on_progress({"cells", ++done, count});
-    });
-  });
+  for_each_cell(count, run, "cells",
+                [&](std::size_t n) { cells[n] = morphology_of(reader, reader.grid().cells.cell_at(n), winds); });
   return cells;
 }
 

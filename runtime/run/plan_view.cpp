@@ -2,22 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farlod/plan_view.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <compare>
-#include <functional>
 #include <limits>
-#include <mutex>
 #include <utility>
 
-#include "base/cancellation.hpp"
 #include "base/run_settings.hpp"
 #include "receivers/raster_receivers.hpp"
+#include "run/cells_in_parallel.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
 #include "run/usable_view.hpp"
@@ -25,22 +20,6 @@
 
 namespace farlod {
 namespace {
-
-/// Calls `work` with the numbers of some cells, on the threads of a run, and tells its progress.
-void for_each_cell(std::size_t count, const RunSettings& run, const char* stage, const std::function<void(std::size_t)>& work) {
-  std::mutex mutex;
-  std::size_t done = 0;
-  oneapi::tbb::task_arena arena(static_cast<int>(thread_count(run)));
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t n) {
-      throw_if_cancelled(run.stop);
-      work(n);
-      if (!run.on_progress) return;
-      const std::lock_guard lock(mutex);
-      run.on_progress({stage, ++done, count});
-    });
-  });
-}
 
 /// A side of a roof's triangle in the plan, the same whichever way it runs.
 struct RoofSide {

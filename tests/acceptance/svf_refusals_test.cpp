@@ -79,6 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         wrong_grid("HeightInSpace", "--height 1e30", {"--height: 1e30", "from 0 to 10000"}),
         wrong_usage("SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", {"--spacing: nan"}),
         wrong_grid("BoxOfThreeNumbers", "--bbox 1,2,3", {"--bbox", "X0,Y0,X1,Y1"}),
+        wrong_grid("BoxByAnUnknownWord", "--bbox town", {"--bbox", "city or grid"}),
         wrong_grid("BoxWithACommaTooMany", "--bbox 1,2,3,4,", {"--bbox", "X0,Y0,X1,Y1"}),
         wrong_usage("PlaceWithACommaTooMany", "a.farlod -o o.csv --at 1,2,", {"--at", "X,Y"}),
         wrong_grid("BoxInsideOut", "--bbox 3,2,1,4", {"--bbox", "X0 < X1"}),

@@ -22,7 +22,7 @@ struct FeatureField {
   FieldType type = FieldType::text;
 };
 
-/// What the rows of a layer are.
+/// What the rows of a layer are. Areas are polygons in the plan.
 enum class LayerGeometry : std::uint8_t { none, points, polygons, areas };
 
 /// A table whose rows may have a place, as GIS programs know them.
@@ -37,12 +37,10 @@ using FieldValue = std::variant<std::monostate, std::string_view, std::int64_t, 
 
 /// A row of a layer.
 struct FeatureRow {
-  Point2d p_projected;             ///< of a point
-  std::optional<double> height_m;  ///< likewise
-  std::vector<FieldValue> values;  ///< as many as FeatureLayer::fields
-  std::vector<SurfacePolygon> polygons = {};
-  /// Corners of an area, counter-clockwise, the first not again at the end. It is level, without heights.
-  std::vector<Point2d> outline = {};
+  Point2d p_projected;                        ///< of a point
+  std::optional<double> height_m;             ///< likewise
+  std::vector<FieldValue> values;             ///< as many as FeatureLayer::fields
+  std::vector<SurfacePolygon> polygons = {};  ///< of an area one, whose heights do not count
 };
 
 /// Writes layers to files of a vector format. All functions throw OutputError.

@@ -86,14 +86,22 @@ std::unique_ptr<OGRLinearRing> ring_of(const std::vector<Point3d>& corners) {
   return ring;
 }
 
+std::unique_ptr<OGRPolygon> polygon_of(const SurfacePolygon& p) {
+  auto polygon = std::make_unique<OGRPolygon>();
+  polygon->addRingDirectly(ring_of(p.shell).release());
+  for (const std::vector<Point3d>& hole : p.holes) polygon->addRingDirectly(ring_of(hole).release());
+  return polygon;
+}
+
+std::unique_ptr<OGRPolygon> area_of(const SurfacePolygon& p) {
+  std::unique_ptr<OGRPolygon> polygon = polygon_of(p);
+  polygon->flattenTo2D();
+  return polygon;
+}
+
 std::unique_ptr<OGRMultiPolygon> multipolygon_of(const std::vector<SurfacePolygon>& polygons) {
   auto all = std::make_unique<OGRMultiPolygon>();
-  for (const SurfacePolygon& p : polygons) {
-    auto polygon = std::make_unique<OGRPolygon>();
-    polygon->addRingDirectly(ring_of(p.shell).release());
-    for (const std::vector<Point3d>& hole : p.holes) polygon->addRingDirectly(ring_of(hole).release());
-    all->addGeometryDirectly(polygon.release());
-  }
+  for (const SurfacePolygon& p : polygons) all->addGeometryDirectly(polygon_of(p).release());
   return all;
 }
 
@@ -106,15 +114,6 @@ void set_value(OGRFeature& feature, int field, const FieldValue& value) {
     feature.SetField(field, *real);
   else
     feature.SetFieldNull(field);
-}
-
-void set_area(OGRFeature& feature, const std::vector<Point2d>& outline) {
-  OGRLinearRing ring;
-  for (const Point2d& p : outline) ring.addPoint(millimetres(p.x), millimetres(p.y));
-  ring.closeRings();
-  OGRPolygon polygon;
-  polygon.addRing(&ring);
-  feature.SetGeometry(&polygon);
 }
 
 class GdalFeatureWriter final : public FeatureWriter {
@@ -150,7 +149,7 @@ class GdalFeatureWriter final : public FeatureWriter {
     throw_if_any(errors);
     feature_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
     point_ = nullptr;
-    has_polygons_ = layer.geometry == LayerGeometry::polygons;
+    geometry_ = layer.geometry;
     if (layer.geometry != LayerGeometry::points) return;
     feature_->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
     point_ = feature_->GetGeometryRef()->toPoint();
@@ -166,8 +165,8 @@ class GdalFeatureWriter final : public FeatureWriter {
       point_->setY(millimetres(row.p_projected.y));
       point_->setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
     }
-    if (has_polygons_) feature.SetGeometryDirectly(multipolygon_of(row.polygons).release());
-    if (!row.outline.empty()) set_area(feature, row.outline);
+    if (geometry_ == LayerGeometry::polygons) feature.SetGeometryDirectly(multipolygon_of(row.polygons).release());
+    if (geometry_ == LayerGeometry::areas) feature.SetGeometryDirectly(area_of(row.polygons.front()).release());
     if (layer_->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
       throw OutputError(file_.destination(), "a row was refused");
     throw_if_any(errors);
@@ -198,7 +197,7 @@ class GdalFeatureWriter final : public FeatureWriter {
   OGRLayer* layer_ = nullptr;
   Feature feature_;  // one for all rows: making a new one takes a third of the time of writing it
   OGRPoint* point_ = nullptr;
-  bool has_polygons_ = false;
+  LayerGeometry geometry_ = LayerGeometry::points;
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ void GeojsonWriter::add_place(Point2d p, std::optional<double> height_m) {
 }
 
 std::size_t GeojsonWriter::add_ring(const std::vector<Point3d>& corners) {
-  for (const Point3d& p : corners) add_place({p.x, p.y}, p.z);
+  for (const Point3d& p : corners) add_place({p.x, p.y}, geometry_ == LayerGeometry::areas ? std::nullopt : std::optional(p.z));
   return corners.size();
 }
 
@@ -121,8 +121,6 @@ void GeojsonWriter::add(const FeatureRow& row) {
     append_value(feature.properties, row.values[n]);
   }
   if (geometry_ == LayerGeometry::points) add_place(row.p_projected, row.height_m);
-  if (geometry_ == LayerGeometry::areas) feature.polygons.push_back({row.outline.size()});
-  for (const Point2d p : row.outline) add_place(p, std::nullopt);
   for (const SurfacePolygon& p : row.polygons) {
     std::vector<std::size_t>& rings = feature.polygons.emplace_back();
     rings.push_back(add_ring(p.shell));

@@ -126,7 +126,8 @@ void write_morphology_as_features(std::span<const CellMorphology> cells, Feature
     FeatureRow row{centre, {}, {std::int64_t{cell.cell.i}, std::int64_t{cell.cell.j}}};
     for (const double x_or_y : {centre.x, centre.y}) row.values.emplace_back(rounded(x_or_y, "m"));
     for (const auto& value : morphology_values(cell)) row.values.push_back(value ? FieldValue(*value) : FieldValue());
-    row.outline.assign(cell.corners_projected.begin(), cell.corners_projected.end());
+    std::vector<Point3d>& shell = row.polygons.emplace_back().shell;
+    for (const Point2d corner : cell.corners_projected) shell.push_back({corner.x, corner.y, 0.0});
     writer.add(row);
   }
 }
