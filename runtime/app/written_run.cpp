@@ -143,7 +143,7 @@ std::optional<SunOfSky> sun_of_sky(const Package& package, const SvfOptions& opt
   sun.legend.push_back(fmt::format("Sunshine {}:", period));
   sun.legend.push_back(fmt::format("{:.1f} h, were the sky clear", *value_of(hemisphere, options, "sunlit_h")));
   if (const auto hours = value_of(hemisphere, options, "sunlit_total_h"))
-    sun.legend.push_back(fmt::format("{:.1f} h past trees and through them", *hours));
+    sun.legend.push_back(fmt::format("{:.1f} h with trees", *hours));
   return sun;
 }
 

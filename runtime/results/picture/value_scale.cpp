@@ -19,10 +19,11 @@ struct BandTitle {
 };
 
 /// Other bands are called by their names alone.
-constexpr std::array<BandTitle, 14> titles{{{"svf", "Sky view factor"},
+constexpr std::array<BandTitle, 15> titles{{{"svf", "Sky view factor"},
                                             {"svf_solid", "Solid angle share of the sky"},
                                             {"svf_total", "Sky view factor with trees"},
                                             {"sunlit_h", "Sunshine, were the sky clear"},
+                                            {"sunlit_total_h", "Sunshine with trees, were the sky clear"},
                                             {"irradiation", "Irradiation"},
                                             {"irradiance", "Mean irradiance"},
                                             {"illuminance", "Mean illuminance"},

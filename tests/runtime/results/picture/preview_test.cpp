@@ -199,6 +199,7 @@ TEST(ValueScale, SharesEndAtOneAndOtherValuesAtTheirGreatest) {
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).end, 1300.0);
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1300.0).end, 1300.0);
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).unit, "kWh/m²");
+  EXPECT_EQ(scale_of({"sunlit_total_h", "h", ""}, 9.0).title, "Sunshine with trees, were the sky clear (sunlit_total_h)");
   EXPECT_EQ(scale_of({"sunlit_h", "h", ""}, 0.0).end, 1.0);
 }
 
