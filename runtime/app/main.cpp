@@ -274,7 +274,7 @@ WrittenRun evaluate(SvfOptions options) {
   written.open_s = open_s;
   add_light(light, written);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
-  if (const auto note = note_of_ignored_crowns(package, options)) written.notes.push_back(*note);
+  add_notes_of_package(package, options, written);
   if (options.shard) kept.finish();
   if (!options.writes()) return written;
   if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);

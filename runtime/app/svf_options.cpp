@@ -131,8 +131,8 @@ void add_output_options(CLI::App& app, RawOptions& raw) {
 /// How exactly the sky is looked at.
 void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--engine", raw.engine,
-                 "auto: horizons, and rays where a cell has no far map; horizon: horizons alone; rays: rays against horizons; "
-                 "exact: rays against all tiles, the reference")
+                 "auto: horizons, and rays where a cell has no far map or one of the kind box; horizon: horizons alone, but for "
+                 "the kind box; rays: rays against horizons; exact: rays against all tiles, the reference")
       ->check(one_of(engine_words, Engine::near_only))
       ->capture_default_str()
       ->group("Accuracy");

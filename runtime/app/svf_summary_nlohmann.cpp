@@ -102,6 +102,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   add_errors_and_totals(run, j);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
+  if (!written.notes.empty()) j["notes"] = written.notes;
   j["settings"] = Json::parse(options.run.settings_json);
   return j.dump(1) + "\n";
 }

@@ -233,6 +233,30 @@ void add_notes_of_kit(const Package& package, const SvfOptions& options, std::ve
     notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
 }
 
+/// What to tell of crowns that nothing which was asked for knows of.
+std::optional<std::string> note_of_ignored_crowns(const Package& package, const SvfOptions& options) {
+  const Quantities& further = options.evaluation.further;
+  if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.any_seen_by_rays()) return std::nullopt;
+  const std::uint64_t crowns = inventory_of(package).crowns.all();
+  if (crowns == 0) return std::nullopt;
+  return fmt::format(
+      "The city has {} crowns of trees, and what was asked for looks through them: --quantity svf_total counts them.",
+      with_commas(crowns));
+}
+
+/// What to tell of far maps that only rays can look up, which is not what the engines auto and horizon are asked for.
+std::optional<std::string> note_of_box_maps(const PackageDescription& city, const SvfOptions& options, std::size_t rays) {
+  constexpr std::size_t quiet_rays = 20'000;  // the root mean square of their noise is .00025
+  const Engine engine = options.evaluation.engine;
+  if (city.far_map_kind != "box" || engine == Engine::exact) return std::nullopt;
+  const std::string advice = fmt::format(
+      "their noise adds to the error of the map (--rays {} makes it small, farlod-pack --far-map horizon needs no rays)",
+      quiet_rays);
+  return fmt::format("The far maps are of the kind box, which have no horizons: {} rays a receiver answered{}{}.",
+                     with_commas(rays), engine == Engine::horizon ? ", whatever the engine" : "",
+                     rays < quiet_rays ? ", and " + advice : "");
+}
+
 }  // namespace
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
@@ -251,14 +275,11 @@ void require_answers(const EvaluationSummary& summary, const SvfOptions& options
   throw NoAnswer(fmt::format("{}: there is nothing of what was asked for. {}", nothing, place));
 }
 
-std::optional<std::string> note_of_ignored_crowns(const Package& package, const SvfOptions& options) {
-  const Quantities& further = options.evaluation.further;
-  if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.any_seen_by_rays()) return std::nullopt;
-  const std::uint64_t crowns = inventory_of(package).crowns.all();
-  if (crowns == 0) return std::nullopt;
-  return fmt::format(
-      "The city has {} crowns of trees, and what was asked for looks through them: --quantity svf_total counts them.",
-      with_commas(crowns));
+void add_notes_of_package(const Package& package, const SvfOptions& options, WrittenRun& written) {
+  for (const std::optional<std::string>& note :
+       std::array{note_of_ignored_crowns(package, options),
+                  note_of_box_maps(package.description(), options, written.summary.accuracy.rays)})
+    if (note) written.notes.push_back(*note);
 }
 
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {

@@ -75,7 +75,7 @@ TEST_F(DocumentedResults, SummaryOfSvfHasTheDocumentedKeysAndNoOthers) {
       "farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --quantity svf_total --bounds --max-error 0.05 --verify 3 "
       "--summary s.json");
   Keys keys = keys_of(folder.json_of("s.json"), title);
-  const Keys of_points{"skipped_features"};
+  const Keys of_points{"notes", "skipped_features"};
   keys.insert(of_points.begin(), of_points.end());
   folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --quantity directional --dry-run --summary s.json");
   keys.merge(keys_of(folder.json_of("s.json"), title));

@@ -284,6 +284,25 @@ TEST_F(PackedTown, SummaryTellsTheFiguresOfTheMap) {
   EXPECT_NEAR(svf.at("median"), all[(all.size() - 1) / 2], 5e-5 + rounding);
 }
 
+TEST_F(PackedTown, ARunSaysThatRaysLookedUpMapsOfTheKindBox) {
+  const auto told_by = [&](const std::string& package, const std::string& options) {
+    const std::string command = "farlod-svf " + package + " -o o.csv --summary s.json --at " + a_place() + " " + options;
+    const std::string printed = folder.run(command).out;
+    const std::vector<std::string> notes = folder.json_of("s.json").value("notes", std::vector<std::string>());
+    for (const std::string& note : notes) EXPECT_THAT(printed, HasSubstr(note + "\n"));
+    return notes;
+  };
+  folder.must("farlod-pack town.geojson -o box.farlod --far-map box");
+  const auto box = HasSubstr("of the kind box, which have no horizons"), more_rays = HasSubstr("--rays 20000");
+  const auto thousand = HasSubstr(": 1,000 rays a receiver answered");
+  EXPECT_THAT(told_by("box.farlod", ""), testing::ElementsAre(testing::AllOf(box, thousand, more_rays)));
+  EXPECT_THAT(told_by("box.farlod", "--engine horizon"),
+              testing::ElementsAre(testing::AllOf(box, thousand, HasSubstr("whatever the engine"), more_rays)));
+  EXPECT_THAT(told_by("box.farlod", "--rays 20000"), testing::ElementsAre(testing::AllOf(box, Not(more_rays))));
+  EXPECT_THAT(told_by("box.farlod", "--engine exact"), testing::IsEmpty());
+  EXPECT_THAT(told_by("a.farlod", "--engine horizon"), testing::IsEmpty());
+}
+
 TEST_F(PackedTown, SummaryNamesTheEngine) {
   for (const std::string engine : {"auto", "horizon", "rays", "exact"}) {
     folder.must("farlod-svf a.farlod -o o.csv --summary s.json --at " + a_place() + " --engine " + engine);
