@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -53,6 +54,19 @@ TEST_F(PackedTown, TheDefaultMapHasTheValuesOfTheWholeGrid) {
     ++compared;
   }
   EXPECT_GT(compared, city.values.size() / 2);
+}
+
+TEST_F(PackedTown, ADefaultMapIsVerifiedWhereItIs) {
+  const auto& [west, south, east, north] =
+      nlohmann::json::parse(folder.run("farlod-info a.farlod --json").out).at("city_m").get<std::array<double, 4>>();
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4 --verify 300 --verify-map errors.csv");
+  const CsvTable verified = table("errors.csv");
+  ASSERT_EQ(verified.size(), 300);
+  for (std::size_t n = 0; n < verified.size(); ++n) {
+    const double x_m = verified.number(n, "x_m"), y_m = verified.number(n, "y_m");
+    EXPECT_TRUE(x_m > west - pixel_m && x_m < east + pixel_m && y_m > south - pixel_m && y_m < north + pixel_m)
+        << x_m << ' ' << y_m;
+  }
 }
 
 }  // namespace
