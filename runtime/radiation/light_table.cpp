@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
+#include <ratio>
 #include <utility>
 
 #include "radiation/perez_sky.hpp"
@@ -143,14 +144,54 @@ Amounts in_lux_hours(const LightInterval& interval) {
   return {interval.direct_normal_lux.value_or(0.0) * interval.hours, interval.diffuse_lux.value_or(0.0) * interval.hours};
 }
 
+/// The sky of some intervals.
+struct SkyOfIntervals {
+  LightInterval mean;
+  double diffuse = 0.0;  ///< what counts of it, on a level plane
+};
+
+/// Adds an interval that follows.
+void add_interval(const LightInterval& interval, double diffuse, SkyOfIntervals& sky) {
+  LightInterval& mean = sky.mean;
+  const double hours = mean.hours + interval.hours, share = hours > 0.0 ? interval.hours / hours : 0.0;
+  mean.direct_normal_w_m2 += share * (interval.direct_normal_w_m2 - mean.direct_normal_w_m2);
+  mean.diffuse_w_m2 += share * (interval.diffuse_w_m2 - mean.diffuse_w_m2);
+  mean.extraterrestrial_w_m2 += share * (interval.extraterrestrial_w_m2 - mean.extraterrestrial_w_m2);
+  mean.hours = hours;
+  mean.sun.insert(mean.sun.end(), interval.sun.begin(), interval.sun.end());
+  sky.diffuse += diffuse;
+}
+
+/// Whether an interval follows a sky, by day, and is with it no longer than a quarter of an hour.
+bool goes_on(const SkyOfIntervals& sky, const LightInterval& interval) {
+  constexpr double longest_h = 0.25 + 1e-6;
+  const auto end =
+      sky.mean.begin + std::chrono::round<std::chrono::seconds>(std::chrono::duration<double, std::ratio<3600>>(sky.mean.hours));
+  return interval.begin == end && sky.mean.hours + interval.hours <= longest_h && has_sun(sky.mean) && has_sun(interval);
+}
+
+/// The skies of intervals, those of a quarter of an hour together: steps of minutes are too fine for the bins of the grid, which
+/// the sun takes ten minutes to pass.
+std::vector<SkyOfIntervals> skies_of(std::span<const LightInterval* const> intervals, Measure measure) {
+  std::vector<SkyOfIntervals> skies;
+  for (const LightInterval* const interval : intervals) {
+    const double diffuse = measure(*interval).diffuse;
+    if (!skies.empty() && goes_on(skies.back(), *interval))
+      add_interval(*interval, diffuse, skies.back());
+    else
+      skies.push_back({*interval, diffuse});
+  }
+  return skies;
+}
+
 /// The skies of some intervals by several threads: so many pieces are added up in their order, whoever made them.
 SkyGrid sky_of(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure) {
+  const std::vector<SkyOfIntervals> skies = skies_of(intervals, measure);
   constexpr std::size_t pieces = 16;
   std::vector<SkyGrid> of_pieces(pieces);
   oneapi::tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t n) {
-    const std::size_t begin = n * intervals.size() / pieces, end = (n + 1) * intervals.size() / pieces;
-    for (const LightInterval* const interval : intervals.subspan(begin, end - begin))
-      of_pieces[n].add(*interval, model, measure(*interval).diffuse);
+    const std::size_t begin = n * skies.size() / pieces, end = (n + 1) * skies.size() / pieces;
+    for (const SkyOfIntervals& sky : std::span(skies).subspan(begin, end - begin)) of_pieces[n].add(sky.mean, model, sky.diffuse);
   });
   SkyGrid all = std::move(of_pieces.front());
   for (const SkyGrid& piece : std::span(of_pieces).subspan(1)) all.add(piece);

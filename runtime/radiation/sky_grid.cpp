@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace farlod {
@@ -12,23 +13,28 @@ namespace {
 
 using std::numbers::pi;
 
-/// The indicatrix of a sky, by the chord from the sun to a place of the sky, 2 sin(γ/2): to take it from a table is five times as
-/// fast as its exponential and an arc cosine, and the cusp at the sun lies on a knot.
+/// The indicatrix of a sky, by half the chord from the sun to a place of the sky, sin(γ/2): to take it from a table is five times
+/// as fast as its exponential and an arc cosine, and the cusp at the sun lies on a knot.
 class IndicatrixTable {
  public:
+  static constexpr std::size_t parts = 256;
   explicit IndicatrixTable(const PerezSky& sky) {
     for (std::size_t n = 0; n <= parts; ++n)
-      values_[n] = sky.indicatrix(Angle::radians(2.0 * std::asin(static_cast<double>(n) / static_cast<double>(parts))));
+      knots_[n].value = sky.indicatrix(Angle::radians(2.0 * std::asin(static_cast<double>(n) / static_cast<double>(parts))));
+    for (std::size_t n = 0; n < parts; ++n) knots_[n].rise = knots_[n + 1].value - knots_[n].value;
   }
-  [[nodiscard]] double at(double cosine) const {
-    const double place = std::sqrt(std::max(0.0, 0.5 - 0.5 * cosine)) * static_cast<double>(parts);
-    const std::size_t n = std::min(static_cast<std::size_t>(place), parts - 1);
-    return values_[n] + (place - static_cast<double>(n)) * (values_[n + 1] - values_[n]);
+  /// At a place from 0 to `parts`, which is half the chord times `parts`.
+  [[nodiscard]] double at(double place) const {
+    const auto n = static_cast<std::int32_t>(place);
+    const Knot& knot = knots_[static_cast<std::size_t>(n)];
+    return knot.value + (place - static_cast<double>(n)) * knot.rise;
   }
 
  private:
-  static constexpr std::size_t parts = 256;
-  std::array<double, parts + 1> values_{};
+  struct Knot {
+    double value = 0.0, rise = 0.0;  ///< to the next one; none from the last
+  };
+  std::array<Knot, parts + 1> knots_{};
 };
 
 }  // namespace
@@ -84,14 +90,20 @@ void SkyGrid::add_perez(const SkyState& state, Angle sun_azimuth, double energy)
   const IndicatrixTable indicatrix(sky);
   const double sun_up = cos(state.sun_zenith), sun_level = sin(state.sun_zenith);
   const double east = sun_level * sin(sun_azimuth), north = sun_level * cos(sun_azimuth);
+  std::array<double, azimuths> level{}, places{};
+  for (std::size_t k = 0; k < azimuths; ++k) level[k] = north * cosines_[k] + east * sines_[k];
   double all = 0.0;
   for (std::size_t n = 0; n < bands; ++n) {
     const Band& band = bands_[n];
     const double gradation = sky.gradation(band.sine);
+    // Half the chord of an angle γ is √(½ − ½ cos γ). Roots alone, so that the compiler takes several at once
+    for (std::size_t k = 0; k < azimuths; ++k) {
+      const double square = 0.5 - 0.5 * (band.sine * sun_up + band.cosine * level[k]);
+      places[k] = static_cast<double>(IndicatrixTable::parts) * std::sqrt(square > 0.0 ? std::min(square, 1.0) : 0.0);
+    }
     double of_band = 0.0;
     for (std::size_t k = 0; k < azimuths; ++k) {
-      const double cosine = band.sine * sun_up + band.cosine * (north * cosines_[k] + east * sines_[k]);
-      const double radiance = std::max(0.0, gradation * indicatrix.at(cosine));
+      const double radiance = std::max(0.0, gradation * indicatrix.at(places[k]));
       relative_[n * azimuths + k] = radiance;
       of_band += radiance;
     }
