@@ -19,7 +19,8 @@ namespace farlod {
 
 /// What answers a receiver (docs/stages/evaluate.md). Far maps of the kind `box` have no horizons: with them automatic, horizon
 /// and rays are all the same, rays that are traced nearby and looked up in the map. Receivers outside of the grid have no far
-/// map: whatever the engine, their rays are traced against the whole city. Those in cells whose far map was not made
+/// map: automatic and horizon draw all edges of a city of up to a million triangles, and otherwise, as the other engines do, rays
+/// are traced against the whole city. Those in cells whose far map was not made
 /// (PackSettings::area) are traced so, too, by the engines automatic and rays.
 enum class Engine {
   automatic,  ///< horizons
@@ -156,7 +157,7 @@ struct EvaluationSummary {
   std::size_t no_data = 0;            ///< inside buildings, below the ground, or without ground below them
   std::size_t beyond_grid = 0;        ///< pixels of a raster that lie in no cell: without a value too
   std::size_t outside_of_region = 0;  ///< receivers that EvaluationSettings::region leaves out: no data, but not counted as such
-  std::size_t outside_of_grid = 0;    ///< receivers outside of the grid, which were traced against the whole city
+  std::size_t outside_of_grid = 0;    ///< receivers outside of the grid, where all of the city is near
   /// Receivers in cells of the grid that have no far map (PackSettings::area). All engines but near_only, which needs none,
   /// traced them against the whole city.
   std::size_t without_far_map = 0;

@@ -30,7 +30,8 @@ std::string text_of(Cell cell) { return std::to_string(cell.i) + "," + std::to_s
 /// What the receivers of a cell may see.
 struct CellGeometry {
   CellGeometry(const Evaluation& e, const CellReceivers& cell)
-      : far(e.package.far_horizon(cell.cell)),
+      : far(far_map_of(e.package, cell.cell) == FarMapOfCell::all_is_near ? without_far_map(e.package.grid())
+                                                                          : e.package.far_horizon(cell.cell)),
         silhouettes(cell_silhouettes(e.package, cell.cell, far, bounding_box(cell.receivers))),
         overhangs(e.package, cell.cell, is_small(e.package) ? e.city.get() : nullptr) {}
   CellGeometry(FarHorizon f, CellSilhouettes s, OverhangGeometry o)
@@ -41,9 +42,12 @@ struct CellGeometry {
 
   /// Nothing: horizons are those of pixels.
   static CellGeometry of_pixels(const Evaluation& e, Cell cell) {
-    const ReceiverPatches one_patch(e.package.grid().cell_edge_m, 1, {0.0F});
-    return {FarHorizon{one_patch, AzimuthBins{1}, {0.0F}, {0.0F}, {0.0F}, {0.0F}, {}}, CellSilhouettes(),
-            OverhangGeometry(e.package, cell)};
+    return {without_far_map(e.package.grid()), CellSilhouettes(), OverhangGeometry(e.package, cell)};
+  }
+  /// A far map with nothing in it.
+  static FarHorizon without_far_map(const Grid& grid) {
+    const ReceiverPatches one_patch(grid.cell_edge_m, 1, {0.0F});
+    return {one_patch, AzimuthBins{1}, {0.0F}, {0.0F}, {0.0F}, {0.0F}, {}};
   }
 
   /// A small city is indexed once for all cells; of a large one, each cell indexes what it needs.

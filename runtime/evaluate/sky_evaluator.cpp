@@ -18,8 +18,20 @@
 
 namespace farlod {
 
+namespace {
+
+/// Each cell outside of the grid collects all edges of the city: some hundredths of a second. Pixels have no edges, and the
+/// ground beyond the grid is in far maps and in the scene of the whole city alone.
+bool are_all_edges_drawn(const package::Manifest& manifest) {
+  constexpr std::uint64_t most_triangles = 1'000'000;
+  return manifest.triangles <= most_triangles && !manifest.far_map.is_box() && !manifest.heights() && !manifest.far_terrain;
+}
+
+}  // namespace
+
 FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
-  if (!package.grid().cells.contains(cell)) return FarMapOfCell::outside_of_grid;
+  if (!package.grid().cells.contains(cell))
+    return are_all_edges_drawn(package.manifest()) ? FarMapOfCell::all_is_near : FarMapOfCell::outside_of_grid;
   if (!package.has_far_map(cell))
     return package::is_natural_relief(package.manifest()) ? FarMapOfCell::needless : FarMapOfCell::missing;
   return package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon;
@@ -27,7 +39,9 @@ FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
 
 EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
   using enum EvaluationMethod;
-  if (far_map == FarMapOfCell::outside_of_grid || engine == Engine::exact) return whole_city;
+  if (far_map == FarMapOfCell::all_is_near && (engine == Engine::automatic || engine == Engine::horizon)) return horizons;
+  if (far_map == FarMapOfCell::outside_of_grid || far_map == FarMapOfCell::all_is_near || engine == Engine::exact)
+    return whole_city;
   if (engine == Engine::near_only) return near_scene_alone;
   if (far_map == FarMapOfCell::missing) return engine == Engine::horizon ? horizons : whole_city;
   if (far_map == FarMapOfCell::needless) return engine == Engine::rays ? whole_city : pixels_and_whole_city;

@@ -24,9 +24,10 @@ namespace farlod {
 enum class FarMapOfCell {
   horizon,
   box,
-  missing,         ///< the cell is one of the grid, and far maps were made for others
-  needless,        ///< the city is natural relief, over whose pixels rays march
-  outside_of_grid  ///< there are no cells, and no far maps
+  missing,          ///< the cell is one of the grid, and far maps were made for others
+  needless,         ///< the city is natural relief, over whose pixels rays march
+  outside_of_grid,  ///< there are no cells, and no far maps
+  all_is_near       ///< likewise, but the edges of the city are so few that all are drawn, without a far map
 };
 
 [[nodiscard]] FarMapOfCell far_map_of(const PackageReader& package, Cell cell);
@@ -51,6 +52,8 @@ inline constexpr std::size_t evaluation_method_count = 6;
 ///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city              whole_city
 ///   exact       whole_city              whole_city           whole_city         whole_city              whole_city
 ///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   near_scene_alone        whole_city
+///
+/// Where all is near, `automatic` and `horizon` draw horizons outside of the grid, too.
 ///
 /// Rays march over the pixels of natural relief before horizons are drawn, too.
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);

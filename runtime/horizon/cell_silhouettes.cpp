@@ -8,6 +8,7 @@
 
 #include "base/expects.hpp"
 #include "occlusion/placed_mesh.hpp"
+#include "scene/near_cells.hpp"
 
 namespace farlod {
 namespace {
@@ -51,8 +52,8 @@ CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const 
   const Grid& grid = package.grid();
   // Most edges are far
   silhouettes.grounded.reserve(2 * far.occluders.explicit_edges.size());
-  // Near: the edges of all tiles of the neighborhood
-  const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
+  // Near: the edges of all tiles nearby
+  const CellRange near = near_cells_of(grid, cell);
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
     const Cell neighbor = near.cell_at(n);
     const Point2d shift_m = grid.corner_of(neighbor) - grid.corner_of(cell);

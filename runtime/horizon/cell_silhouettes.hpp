@@ -38,7 +38,8 @@ struct CellSilhouettes : CellOverhangs {
   void number_upper_borders();
 };
 
-/// The edges of the neighborhood and the explicit edges of the far map, without those that face away from all receivers in a box.
+/// The edges of the cells nearby (near_cells_of) and the explicit edges of the far map, without those that face away from all
+/// receivers in a box.
 [[nodiscard]] CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const FarHorizon& far,
                                                const ReceiverBox& box);
 

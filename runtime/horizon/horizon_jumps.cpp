@@ -28,11 +28,11 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   if (azimuths_.size() < least_azimuths) return {horizon.sky_above(weight, receivers, of_azimuths), {}};
   SkyAbove above{horizon.sky_above(weight, receivers, sky_), {}};
   std::copy_n(sky_.begin(), of_azimuths.size(), of_azimuths.begin());
-  for (const SkyJump& jump : horizon.find_jumps(sky_, of_azimuths.empty() ? least_jump : least_jump_of_azimuths, jumps_))
+  for (const SkyJump& jump : horizon.find_jumps(sky_, least_jump, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       const Correction correction = correction_of(jump.azimuth, lane, horizon, receivers, ends);
-      if (correction.is_large) above.correction[lane] += correction.sky;
+      above.correction[lane] += correction.sky;
       if (!of_azimuths.empty()) of_azimuths[correction.azimuth][lane] += correction.sky;
     }
   for (std::size_t l = 0; l < above.sky.size(); ++l) {
@@ -56,8 +56,7 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
                                {receivers.x[lane], receivers.y[lane], receivers.z[lane]}, ends);
   // An edge that reaches over the middle hides sky of the other azimuth; one that does not leaves sky of its own
   const bool is_of_here = is_here == (share < half);
-  const float jump = sky_[azimuth][lane] - sky_[next][lane];
-  return {((is_here ? share : 1.0F - share) - half) * jump, is_of_here ? azimuth : next, std::abs(jump) > least_jump};
+  return {((is_here ? share : 1.0F - share) - half) * (sky_[azimuth][lane] - sky_[next][lane]), is_of_here ? azimuth : next};
 }
 
 float HorizonJumps::share_of(std::size_t higher, float towards, std::int32_t number, float lower_slope, const Point3f& receiver,

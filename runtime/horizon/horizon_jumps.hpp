@@ -22,8 +22,6 @@ class HorizonJumps {
   static constexpr std::size_t least_azimuths = 32;
   /// Jumps of less sky than this stay where they are: there are many, and together they are worth little.
   static constexpr float least_jump = 0.1F;
-  /// But where the light of each azimuth is asked for, they decide when the sun is seen from a wall in a narrow street.
-  static constexpr float least_jump_of_azimuths = 0.01F;
 
   /// The sampling must be even, and outlive it.
   explicit HorizonJumps(const AzimuthSampling& azimuths) : azimuths_(azimuths), sky_(azimuths.size()), jumps_(azimuths.size()) {}
@@ -37,8 +35,7 @@ class HorizonJumps {
                                    const BorderEnds& ends) {
     return sky_above(horizon, weight, receivers, ends, {});
   }
-  /// The same, and the sky of each azimuth by itself, with the corrections of its jumps, small ones, too; unless there are no
-  /// rows.
+  /// The same, and the sky of each azimuth by itself, which the corrections of its jumps are a part of; unless there are no rows.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
                                    const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths);
 
@@ -47,7 +44,6 @@ class HorizonJumps {
   struct Correction {
     float sky = 0.0F;
     std::size_t azimuth = 0;
-    bool is_large = false;  ///< the jump is one that the sum over the azimuths counts
   };
   [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
                                          const ReceiverPacket& receivers, const BorderEnds& ends) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/near_cells.hpp"
 #include "scene/vertical_profile.hpp"
 
 namespace farlod {
@@ -101,7 +102,7 @@ std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::overhanging_in(
 const OverhangFacets& OverhangGeometry::facets() {
   if (facets_) return *facets_;
   facets_.emplace();
-  for (const TriangleCorners& t : overhanging_in(package_.grid().neighborhood_of(cell_))) facets_->add(t);
+  for (const TriangleCorners& t : overhanging_in(near_cells_of(package_.grid(), cell_))) facets_->add(t);
   return *facets_;
 }
 
@@ -128,7 +129,7 @@ PlacedScene OverhangGeometry::scene() {
   if (scene_) return {*scene_, {}};
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
-  for (const TriangleCorners& t : overhanging_in(package_.grid().neighborhood_of(cell_))) {
+  for (const TriangleCorners& t : overhanging_in(near_cells_of(package_.grid(), cell_))) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), t.begin(), t.end());
     triangles.push_back({first, first + 1, first + 2});

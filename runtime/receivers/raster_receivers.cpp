@@ -5,11 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/cancellation.hpp"
+#include "receivers/point_receivers.hpp"
 
 namespace farlod {
 namespace {
+
+/// What two boxes have in common; empty where they do not meet.
+Box2d common_part(const Box2d& a, const Box2d& b) {
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}, {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
 
 /// Pixels are listed patch by patch, so that 16 in a row see almost the same.
 constexpr std::size_t patch_edge = 4;
@@ -76,7 +83,30 @@ std::vector<Cell> RasterReceivers::cells() const {
   const CellRange& range = manifest_.grid.cells;
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n)
     if (!range_of(range.cell_at(n)).empty()) result.push_back(range.cell_at(n));
+  if (beyond_grid_ == BeyondGrid::is_answered) add_cells_beyond_grid(result);
   return result;
+}
+
+void RasterReceivers::add_cells_beyond_grid(std::vector<Cell>& cells) const {
+  const Grid& grid = manifest_.grid;
+  const Point2d corner = plan_.north_west_m;
+  const Box2d all{{corner.x, corner.y - static_cast<double>(plan_.rows) * plan_.step_m},
+                  {corner.x + static_cast<double>(plan_.columns) * plan_.step_m, corner.y}};
+  // A raster of another place has nothing to do with the city
+  const Box2d outline = manifest_.projected_outline(grid.rectangle());
+  if (!meet(all, outline)) return;
+  Box2d asked = common_part(all, grown(outline, answered_beyond_grid_m));
+  if (region_ != nullptr) asked = common_part(asked, region_->outline());
+  if (asked.empty()) return;
+  Box2d asked_grid;
+  for (const Point2d p : {asked.low, Point2d{asked.high.x, asked.low.y}, asked.high, Point2d{asked.low.x, asked.high.y}})
+    asked_grid.add(manifest_.grid_from_projected(p));
+  const Cell first = grid.cell_of(asked_grid.low), last = grid.cell_of(asked_grid.high);
+  for (Cell cell = first; cell.j <= last.j; ++cell.j)
+    for (cell.i = first.i; cell.i <= last.i; ++cell.i) {
+      if (grid.cells.contains(cell) || !meet(manifest_.projected_outline(grid.square_of(cell)), asked)) continue;
+      if (!range_of(cell).empty()) cells.push_back(cell);
+    }
 }
 
 PixelRange RasterReceivers::range_of(Cell cell) const {
@@ -113,29 +143,62 @@ RasterReceivers::Centres RasterReceivers::centres_of(const PixelRange& pixels, C
   return centres;
 }
 
+template <class OnStrip, class Visit>
+std::size_t RasterReceivers::for_each_wanted(Cell cell, const std::stop_token& stop, const OnStrip& on_strip,
+                                             const Visit& visit) const {
+  std::size_t unwanted = 0;
+  for_each_strip(range_of(cell), [&](const PixelRange& strip) {
+    throw_if_cancelled(stop);
+    const Centres centres = centres_of(strip, cell);
+    on_strip(centres.places);
+    for_each_pixel_by_patches(strip, [&](std::size_t column, std::size_t row) {
+      const std::size_t n = (row - strip.row_begin) * centres.places.columns + column - strip.column_begin;
+      if (!centres.are_in_cell[n]) return;
+      if (region_ != nullptr && !region_->contains(plan_.centre_m(column, row)))
+        ++unwanted;
+      else
+        visit(centres.places, n, column, row);
+    });
+  });
+  return unwanted;
+}
+
 CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
                                        const std::stop_token& stop) const {
+  if (!manifest_.grid.cells.contains(cell)) return beyond_grid(package, cell, above, height_m, stop);
   LatticeLocator locator(package, cell);
   CellReceivers result{cell, {}};
   // Where all pixels are outside of the region, nobody asks for their heights
   const bool is_met = region_ == nullptr || meet(manifest_.projected_outline(manifest_.grid.square_of(cell)), region_->outline());
-  for_each_strip(range_of(cell), [&](const PixelRange& strip) {
-    throw_if_cancelled(stop);
-    const Centres centres = centres_of(strip, cell);
-    if (is_met) locator.look_at(centres.places);
-    for_each_pixel_by_patches(strip, [&](std::size_t column, std::size_t row) {
-      const std::size_t n = (row - strip.row_begin) * centres.places.columns + column - strip.column_begin;
-      if (!centres.are_in_cell[n]) return;
-      if (region_ != nullptr && !region_->contains(plan_.centre_m(column, row))) {
-        ++result.outside_of_region;
-        return;
-      }
-      if (const auto p_cell = stand(locator.at(n), centres.places.x[n], centres.places.y[n], above, height_m))
-        result.receivers.push_back({row * plan_.columns + column, *p_cell});
-      else
-        ++result.left_out;
-    });
-  });
+  const auto look_at = [&](const PlanLattice& places) {
+    if (is_met) locator.look_at(places);
+  };
+  const auto add = [&](const PlanLattice& places, std::size_t n, std::size_t column, std::size_t row) {
+    if (const auto p_cell = stand(locator.at(n), places.x[n], places.y[n], above, height_m))
+      result.receivers.push_back({row * plan_.columns + column, *p_cell});
+    else
+      ++result.left_out;
+  };
+  result.outside_of_region = for_each_wanted(cell, stop, look_at, add);
+  return result;
+}
+
+CellReceivers RasterReceivers::beyond_grid(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
+                                           const std::stop_token& stop) const {
+  std::vector<PlaceOfReceiver> places;
+  std::vector<std::size_t> pixels;
+  const auto add = [&](const PlanLattice&, std::size_t, std::size_t column, std::size_t row) {
+    places.push_back({plan_.centre_m(column, row), {}});
+    pixels.push_back(row * plan_.columns + column);
+  };
+  const std::size_t unwanted = for_each_wanted(
+      cell, stop, [](const PlanLattice&) {}, add);
+  std::vector<std::size_t> all(places.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  CellReceivers result = receivers_at(package, cell, places, all, above, height_m, stop);
+  for (Receiver& receiver : result.receivers) receiver.index = pixels[receiver.index];
+  result.left_out = places.size() - result.receivers.size();
+  result.outside_of_region = unwanted;
   return result;
 }
 

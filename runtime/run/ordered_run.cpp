@@ -79,6 +79,7 @@ struct Tally {
   SvfStatistics statistics, totals;
   SvfDistribution distribution;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
+  FarMapOfCell beyond_grid = FarMapOfCell::outside_of_grid;  ///< or all_is_near
   RayCounts rays;
   double store_s = 0.0;
 
@@ -91,7 +92,10 @@ struct Tally {
     rays.by_rays += cell.values.counts.by_rays;
     rays.retraced_rays += cell.values.counts.retraced_rays;
     const FarMapOfCell far_map = far_map_of(package, cell.receivers.cell);
-    if (far_map == FarMapOfCell::outside_of_grid) outside_of_grid += counts.back();
+    if (far_map == FarMapOfCell::outside_of_grid || far_map == FarMapOfCell::all_is_near) {
+      outside_of_grid += counts.back();
+      beyond_grid = far_map;
+    }
     if (far_map == FarMapOfCell::missing) without_far_map += counts.back();
   }
 };
@@ -104,11 +108,11 @@ EvaluationSeconds seconds_of(double wall_s, const EvaluationStatistics& evaluati
   return {wall_s * scene_share, wall_s * (1.0 - scene_share - store_share), wall_s * store_share};
 }
 
-/// The error of what answered: of far maps of the kind `box`, beyond the grid, and where far maps are missing, that is rays,
-/// whatever the engine.
+/// The error of what answered: of far maps of the kind `box`, and where far maps are missing, that is rays, whatever the engine;
+/// beyond the grid, too, unless all is near.
 double sampling_error_of_run(const SkySettings& sky, const package::Manifest& manifest, const Tally& tally) {
   double error = sampling_error_of(sky, manifest.far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
-  if (tally.outside_of_grid > 0) error = std::max(error, sampling_error_of(sky, FarMapOfCell::outside_of_grid));
+  if (tally.outside_of_grid > 0) error = std::max(error, sampling_error_of(sky, tally.beyond_grid));
   if (tally.without_far_map > 0) error = std::max(error, sampling_error_of(sky, FarMapOfCell::missing));
   return error;
 }

@@ -9,6 +9,7 @@
 
 #include "base/run_settings.hpp"
 #include "evaluate/quantity_table.hpp"
+#include "evaluate/sky_evaluator.hpp"
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"
 #include "receivers/hilbert_curve.hpp"
@@ -42,6 +43,14 @@ void require_usable(const Box2d& part, double step_m) {
     throw InvalidArgument("the part of the raster is empty: its low corner must lie south-west of its high corner");
   if ((part.high.x - part.low.x) / step_m * ((part.high.y - part.low.y) / step_m) > most_pixels)
     throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
+}
+
+/// Pixels beyond the grid have answers where horizons can be drawn there: rays against the whole city would take a hundred times
+/// as long for bounds and light. It depends on the package alone, so that all engines answer the same pixels.
+BeyondGrid beyond_grid_of(const PackageReader& package) {
+  const CellRange& cells = package.grid().cells;
+  const FarMapOfCell outside = far_map_of(package, {cells.i_begin - 1, cells.j_begin - 1});
+  return outside == FarMapOfCell::all_is_near ? BeyondGrid::is_answered : BeyondGrid::is_left_out;
 }
 
 TileRange tiles_over(const PixelRange& pixels) {
@@ -123,7 +132,7 @@ class RasterRun {
         placing_(resolved(placing)),
         package_(package),
         plan_(checked(plan)),
-        receivers_(reader().manifest(), plan, settings_.region.get()),
+        receivers_(reader().manifest(), plan, settings_.region.get(), beyond_grid_of(reader())),
         cells_(along_hilbert_curve(receivers_.cells(), reader().grid().block_edge)),
         tiles_(tiles_of_cells(receivers_, cells_)),
         further_bands_(columns_of(settings_.sky.further).size()) {
@@ -350,7 +359,7 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const Placing where = resolved(placing);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
-  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get());
+  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get(), beyond_grid_of(in_use.reader()));
   const std::vector<Cell> cells = cells_in(window, receivers, in_use.reader().grid());
   MemoryNeeds needs = needs_of(plan, {}, in_use.reader().grid(), 0);
   needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);

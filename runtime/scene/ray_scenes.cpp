@@ -9,6 +9,7 @@
 
 #include "base/cancellation.hpp"
 #include "scene/canopy_around.hpp"
+#include "scene/near_cells.hpp"
 
 namespace farlod {
 namespace {
@@ -36,8 +37,7 @@ std::vector<TriangleIndex::Corners> triangles_of_whole_city(const PackageReader&
 
 Occluder near_scene(const PackageReader& package, Cell cell) {
   const Grid& grid = package.grid();
-  const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
-  return occluder_of_cells(grid, near, grid.corner_of(cell), [&](Cell c) { return package.tile(c).mesh; });
+  return occluder_of_cells(grid, near_cells_of(grid, cell), grid.corner_of(cell), [&](Cell c) { return package.tile(c).mesh; });
 }
 
 WholeCity::WholeCity(const PackageReader& package, const std::stop_token& stop)

@@ -69,5 +69,30 @@ TEST_F(PackedTown, ADefaultMapIsVerifiedWhereItIs) {
   }
 }
 
+TEST_F(PackedTown, PixelsBeyondTheGridAreAnsweredAsPointsAre) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 16 --bbox grid --summary s.json");
+  EXPECT_GT(folder.json_of("s.json").at("receivers_outside_of_grid"), 10);
+  folder.must("farlod-svf a.farlod -o exact.asc --grid 16 --bbox grid --engine exact --rays 20000");
+  const RasterFile map = raster("o.asc"), exact = raster("exact.asc");
+  std::string points = "x,y\n";
+  for (std::size_t n = 0; n < map.values.size(); ++n) points += text_of(map.centre_of(n)) + "\n";
+  folder.write("p.csv", points);
+  folder.must("farlod-svf a.farlod -o p_out.csv --points p.csv --bounds");
+  const CsvTable answers(folder.text_of("p_out.csv"));
+  std::size_t beyond = 0;
+  for (std::size_t n = 0; n < map.values.size(); ++n) {
+    ASSERT_EQ(map.values[n].has_value(), exact.values[n].has_value());
+    if (!map.values[n]) continue;
+    EXPECT_NEAR(*map.values[n], *exact.values[n], 0.004);
+    EXPECT_NEAR(*map.values[n], answers.number(n, "svf"), 1e-4);
+    const double of_rays = 0.002;
+    EXPECT_LE(answers.number(n, "svf_low"), *exact.values[n] + of_rays);
+    EXPECT_GE(answers.number(n, "svf_high"), *exact.values[n] - of_rays);
+    const Point2d p_town = GridRotation(town_bearing).grid_from_city(map.centre_of(n) - town_middle);
+    beyond += std::max(std::abs(p_town.x), std::abs(p_town.y)) > town_half_m + 150.0 ? 1U : 0U;
+  }
+  EXPECT_GT(beyond, 0U);
+}
+
 }  // namespace
 }  // namespace farlod::acceptance

@@ -23,6 +23,7 @@
 #include "georeference/georeference.hpp"
 #include "ingest/files/input_search.hpp"
 #include "ingest/ingest.hpp"
+#include "receivers/point_receivers.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -134,6 +135,62 @@ TEST_P(RasterOfATown, EachPixelBelongsToExactlyOneCell) {
   // Of the grids that are not turned, or by a right angle, borders run through the centres of pixels
   manifest_.origin_m = {};
   expect_each_pixel_once(plan_raster(manifest_, 32.0, std::nullopt), HeightAbove::highest_surface);
+}
+
+TEST_P(RasterOfATown, PixelsBeyondTheGridStandWherePointsDo) {
+  manifest_ = package_.manifest();
+  const Box2d outline = manifest_.projected_outline(package_.grid().rectangle());
+  const RasterPlan plan = plan_raster(manifest_, 3.0, grown(outline, 1.5 * answered_beyond_grid_m));
+  const RasterReceivers receivers(manifest_, plan, nullptr, BeyondGrid::is_answered);
+  std::map<std::size_t, Point3f> found;
+  for (const Cell cell : receivers.cells())
+    for (const Receiver& r : receivers.in_cell(package_, cell, HeightAbove::ground, 1.5F).receivers) {
+      EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
+      const PlaceOfReceiver place{plan.centre_m(r.index % plan.columns, r.index / plan.columns), {}};
+      const std::array chosen{std::size_t{0}};
+      const CellReceivers alone = receivers_at(package_, cell, {&place, 1}, chosen, HeightAbove::ground, 1.5F);
+      ASSERT_EQ(alone.receivers.size(), 1U);
+      EXPECT_NEAR(norm(alone.receivers[0].p_cell - r.p_cell), 0.0F, 1e-4F);
+    }
+  const Box2d answered = grown(outline, answered_beyond_grid_m);
+  std::size_t beyond = 0;
+  for (std::size_t row = 0; row < plan.rows; ++row)
+    for (std::size_t column = 0; column < plan.columns; ++column) {
+      const Point2d centre = plan.centre_m(column, row);
+      const bool is_beyond = !package_.grid().cells.contains(package_.grid().cell_of(manifest_.grid_from_projected(centre)));
+      beyond += is_beyond ? 1U : 0U;
+      if (is_beyond && answered.contains(centre))
+        EXPECT_TRUE(found.contains(row * plan.columns + column)) << row << "," << column;
+    }
+  EXPECT_GT(beyond, 1000U);
+  // The same in the cells of the grid
+  for (const auto& [pixel, p_cell] : one_by_one(plan, HeightAbove::ground)) EXPECT_EQ(found.at(pixel), p_cell);
+}
+
+TEST_P(RasterOfATown, ARasterOfAnotherPlaceHasNoPixelsBeyondTheGrid) {
+  manifest_ = package_.manifest();
+  const Point2d high = manifest_.projected_outline(package_.grid().rectangle()).high;
+  const RasterPlan plan = plan_raster(manifest_, 1.0, Box2d{high + Point2d{2.0, 2.0}, high + Point2d{9.0, 9.0}});
+  EXPECT_TRUE(RasterReceivers(manifest_, plan, nullptr, BeyondGrid::is_answered).cells().empty());
+}
+
+TEST_P(RasterOfATown, PixelsBeyondTheGridAreThoseOfTheRegion) {
+  manifest_ = package_.manifest();
+  const Box2d outline = manifest_.projected_outline(package_.grid().rectangle());
+  const RasterPlan plan = plan_raster(manifest_, 2.0, grown(outline, 60.0));
+  const Point2d corner = outline.high;
+  const Region region({{corner + Point2d{5.0, 5.0}, corner + Point2d{25.0, 5.0}, corner + Point2d{5.0, 25.0}}});
+  const RasterReceivers receivers(manifest_, plan, &region, BeyondGrid::is_answered);
+  std::size_t count = 0;
+  for (const Cell cell : receivers.cells())
+    for (const Receiver& r : receivers.in_cell(package_, cell, HeightAbove::ground, 1.5F).receivers) {
+      EXPECT_TRUE(region.contains(plan.centre_m(r.index % plan.columns, r.index / plan.columns)));
+      ++count;
+    }
+  std::size_t wanted = 0;
+  for (std::size_t n = 0; n < plan.columns * plan.rows; ++n)
+    wanted += region.contains(plan.centre_m(n % plan.columns, n / plan.columns)) ? 1U : 0U;
+  EXPECT_EQ(count, wanted);
 }
 
 /// Some of the cells have more pixels than are placed at once.
