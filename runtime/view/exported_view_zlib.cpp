@@ -146,6 +146,7 @@ std::size_t make_files(const ViewCity& city, const TakeFile& take, const OnExpor
   std::size_t with_content = 0;
   take("view.json", city.description(false));
   take("tileset.json", city.tileset(tree));
+  if (city.has_crowns()) take("crowns", city.crowns());
   for (std::size_t n = 0; n < city.results().size(); ++n) {
     const std::string name = "results/" + std::to_string(n);
     take(name, city.results()[n].bytes());

@@ -75,6 +75,9 @@ class ViewCity {
   /// Makes tiles that may be those of the first picture, the middle ones first, until it is told to stop or somebody asks for a
   /// tile: a browser that has started knows which ones it needs. What goes wrong is told to who asks for the tile.
   void make_first_tiles(const std::stop_token& stop) const;
+  [[nodiscard]] bool has_crowns() const { return has_crowns_; }
+  /// The canopy as the page reads it (CanopyColumns), made when it is asked for first.
+  [[nodiscard]] const std::string& crowns() const;
   /// view.json; `can_answer` says whether single places can be asked for.
   [[nodiscard]] std::string description(bool can_answer) const;
   [[nodiscard]] std::string tile(const TileAddress& address) const;
@@ -95,6 +98,9 @@ class ViewCity {
   ViewFrame frame_;
   TileTree tree_;
   std::vector<ResultLayer> results_;
+  bool has_crowns_;
+  mutable std::once_flag crowns_are_made_;
+  mutable std::string crowns_;
   mutable TileCache tiles_;
   mutable std::atomic<bool> tile_was_asked_for_ = false;
 };

@@ -17,6 +17,7 @@
 #include "farlod/version.hpp"
 #include "results/picture/picture.hpp"
 #include "results/value_text.hpp"
+#include "view/canopy_columns.hpp"
 #include "view/tile_glb.hpp"
 #include "view/tile_surfaces.hpp"
 
@@ -214,6 +215,7 @@ ViewCity::ViewCity(const Package& package, std::string name, const ViewFrame& fr
       frame_(frame),
       tree_(frame_),
       results_(std::move(results)),
+      has_crowns_(inventory_of(package).crowns.all() > 0),
       tiles_(most_bytes_of_tiles) {}
 
 ViewReply ViewCity::answer(std::string_view path, const ViewQuery& query) const {
@@ -233,6 +235,7 @@ ViewReply ViewCity::answer_or_throw(std::string_view path, const ViewQuery& quer
   if (path == "at") return at(query);
   if (path == "hemisphere") return hemisphere(query);
   if (path == "cell") return cell(query);
+  if (path == "crowns" && has_crowns_) return {.type = of_bytes, .body = crowns()};
   if (std::optional<ViewReply> file = file_of_tileset(path)) return *std::move(file);
   if (std::optional<ViewReply> file = file_of_result(path)) return *std::move(file);
   throw BadRequest{404, "There is nothing at this address."};
@@ -261,6 +264,11 @@ std::optional<ViewReply> ViewCity::file_of_result(std::string_view path) const {
   if (!number || *number >= results_.size()) throw BadRequest{404, "There is no such result."};
   const ResultLayer& layer = results_[*number];
   return is_labels ? ViewReply{.body = labels_json(layer)} : ViewReply{.type = of_bytes, .body = layer.bytes()};
+}
+
+const std::string& ViewCity::crowns() const {
+  std::call_once(crowns_are_made_, [&] { crowns_ = canopy_columns_of(package_, frame_).bytes(); });
+  return crowns_;
 }
 
 std::string ViewCity::tile(const TileAddress& address) const {

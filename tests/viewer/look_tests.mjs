@@ -5,6 +5,8 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { atRest, decoded, differing, opened, pixels, ready, seen, share, state } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
+import { startMock } from "./mock_server.mjs";
+import { columnsOfGrove } from "./mock_town.mjs";
 
 /** The city, without the cards at its sides. */
 const city = { x: 260, y: 120, width: 480, height: 460 };
@@ -95,10 +97,36 @@ export const lookTests = {
     await context.close();
   },
 
+  async "draws crowns of trees, and hides them by T and by a link"({ url, context }) {
+    const isGreen = (r, g, b) => g > r + 12 && g > b + 25 && r + g + b < 330, green = async (page) => share(await pixels(page, city), isGreen);
+    const page = await opened(context, url), { drawnCrowns } = await state(page), withCrowns = await green(page);
+    expectEqual(drawnCrowns, columnsOfGrove, "columns of crowns");
+    await page.focus("#city");
+    await page.keyboard.press("t");
+    expectEqual([(await atRest(page)).drawnCrowns, await page.isChecked("#layer-trees")], [0, false], "what T leaves of the crowns");
+    const without = await green(page);
+    expect(withCrowns > without + 0.001, `crowns make ${(100 * (withCrowns - without)).toFixed(2)} % of the picture green`);
+    // A link of a time when no crowns were drawn shows what it showed
+    const old = await opened(context, `${url}#layers=ground,roofs,facades`);
+    expectEqual((await state(old)).drawnCrowns, 0, "columns of crowns of an old link");
+    await old.click("#layer-trees");
+    expectEqual((await atRest(old)).drawnCrowns, columnsOfGrove, "columns of crowns after a click");
+  },
+
+  async "has no layer of trees where there are none"({ context }) {
+    const server = await startMock({ hasTrees: false }), page = await opened(context, server.url);
+    expect(await page.isHidden("#layer-trees"), "a box switches nothing");
+    await page.focus("#city");
+    await page.keyboard.press("t");
+    await atRest(page);
+    expect(!page.url().includes("trees") && server.counts["crowns"] === undefined, "trees are in the link, or were asked for");
+    await server.stop();
+  },
+
   async "shows and hides layers"({ url, context }) {
     const page = await opened(context, url);
     const whole = await pixels(page, city), change = async () => differing(whole, await pixels(page, city));
-    for (const layer of ["ground", "roofs", "facades", "grid"]) {
+    for (const layer of ["ground", "roofs", "facades", "grid", "trees"]) {
       await page.click(`#layer-${layer}`);
       const changed = await seen(change, (now) => now > 0.002);
       expect(changed > 0.002, `the layer ${layer} changes ${(100 * changed).toFixed(2)} % of the picture`);

@@ -8,7 +8,7 @@ import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { fileURLToPath } from "node:url";
 import { resultsOfTown } from "./mock_results.mjs";
-import { boxesOfCell, glbOfTile, grid, gridOfLocal, localOfGrid, origin_m, subtreeOfTown, tilesetOfTown, valueAt } from "./mock_town.mjs";
+import { boxesOfCell, columnsOfGrove, crownsOfTown, glbOfTile, grid, gridOfLocal, localOfGrid, origin_m, subtreeOfTown, tilesetOfTown, valueAt } from "./mock_town.mjs";
 
 const bundle = new URL("../../viewer/bundle/", import.meta.url);
 const types = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", txt: "text/plain; charset=utf-8" };
@@ -23,10 +23,10 @@ const colours = Array.from({ length: 256 }, (_, n) => {
 const boxes = [];
 for (let i = grid.i_begin; i < grid.i_end; ++i) for (let j = grid.j_begin; j < grid.j_end; ++j) boxes.push(...boxesOfCell(i, j));
 
-function viewOf(canAnswer) {
+function viewOf(canAnswer, hasTrees) {
   return {
     software: "mock of farlod-view", name: "boxes.farlod", crs: "JGD2011 / Japan Plane Rectangular CS IX", epsg: 6677, origin_m, can_answer: canAnswer, grid,
-    heights_m: [0, 85], counts: { buildings: boxes.length, polygons: boxes.length * 5, triangles: boxes.length * 10, crowns: 0 },
+    heights_m: [0, 85], counts: { buildings: boxes.length, polygons: boxes.length * 5, triangles: boxes.length * 10, crowns: hasTrees ? columnsOfGrove : 0 },
     far_map_kind: "horizon", receiver_height_m: 1.5, colours, nodata_colour: [190, 190, 190], tileset: "tileset.json",
     results: resultsOfTown.map(({ body, labels, ...info }) => info),
   };
@@ -113,23 +113,24 @@ function file(path) {
   return { type: types[name.split(".").pop()], body: readFileSync(fileURLToPath(new URL(name, bundle))) };
 }
 
-function answer(url, { damaged, canAnswer, counts }) {
+function answer(url, { damaged, canAnswer, hasTrees, counts }) {
   const path = url.pathname.slice(1);
   counts[path] = (counts[path] ?? 0) + 1;
   if (damaged && path === "view.json") throw new Refusal(500, "The package boxes.farlod is damaged: index.bin has a wrong checksum.");
   if (!canAnswer && ["at", "hemisphere", "cell"].includes(path)) throw new Refusal(404, `there is no ${path}`);
-  const json = { "view.json": () => viewOf(canAnswer), "tileset.json": tilesetOfTown, at: () => at(url.searchParams), cell: () => cell(url.searchParams) }[path];
+  const json = { "view.json": () => viewOf(canAnswer, hasTrees), "tileset.json": tilesetOfTown, at: () => at(url.searchParams), cell: () => cell(url.searchParams) }[path];
   if (json) return { type: "application/json", body: Buffer.from(JSON.stringify(json())) };
+  if (path === "crowns" && hasTrees) return { type: "application/octet-stream", body: crownsOfTown() };
   if (path === "hemisphere") return { type: "application/octet-stream", body: hemisphere(url.searchParams) };
   return file(path);
 }
 
 /** The server, listening on a port of its own choice unless told. `counts` has how often each path was asked for. */
-export async function startMock({ port = 0, damaged = false, canAnswer = true } = {}) {
+export async function startMock({ port = 0, damaged = false, canAnswer = true, hasTrees = true } = {}) {
   const counts = {};
   const server = createServer((request, response) => {
     try {
-      const { type, body } = answer(new URL(request.url, "http://localhost"), { damaged, canAnswer, counts });
+      const { type, body } = answer(new URL(request.url, "http://localhost"), { damaged, canAnswer, hasTrees, counts });
       response.writeHead(body ? 200 : 204, { "Content-Type": type, "Cache-Control": "no-store" }).end(body ?? undefined);
     } catch (error) {
       response.writeHead(error.status ?? 500, { "Content-Type": "application/json" }).end(JSON.stringify({ error: error.message }));

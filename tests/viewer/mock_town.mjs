@@ -36,6 +36,16 @@ export function boxesOfCell(i, j) {
   return boxes;
 }
 
+/** A grove above the roofs in the middle of the town: 40 × 40 columns of 3 m, from 40 m to 60 m. */
+export function crownsOfTown() {
+  const [x, y] = localOfGrid(600, 600), side = 40, step_m = 3;
+  const head = new Float32Array([x - (side * step_m) / 2, y + (side * step_m) / 2, step_m, 40, 0.1]);
+  const columns = Uint16Array.from({ length: side * side * 4 }, (_, n) =>
+    [Math.floor(n / 4) % side, Math.floor(n / 4 / side), 0, 200][n % 4]);
+  return Buffer.concat([Buffer.from(head.buffer), Buffer.from(columns.buffer)]);
+}
+export const columnsOfGrove = 1600;
+
 /** Not a sky view factor, but something as smooth, between 0 and 1. */
 export function valueAt(x, y, z, tilt_deg) {
   const [u, v] = gridOfLocal(x, y);

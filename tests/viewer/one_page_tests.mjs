@@ -5,7 +5,7 @@
 import { execFileSync } from "node:child_process";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { chooseMiddle, opened, ready, scratch, state, until } from "./browser.mjs";
+import { atRest, chooseMiddle, opened, ready, scratch, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 import { expectColoursOfRamp } from "./look_tests.mjs";
 
@@ -23,12 +23,16 @@ export const onePageTests = (program, packageFolder) => ({
     // A name with letters that an address has to escape
     const { folder, remove } = scratch(), file = join(folder, "a town #1 – ü.html");
     execFileSync(program, [packageFolder, "--export", file, "--quiet"]);
-    const { origin_m, colours, nodata_colour } = await (await fetch(`${url}view.json`)).json();
+    const { origin_m, colours, nodata_colour, counts } = await (await fetch(`${url}view.json`)).json();
     // Whatever the page asks for, nobody answers
     await context.setOffline(true);
     const { page, wrong } = await openFile(context, pathToFileURL(file).href, `#camera=${origin_m.join(",")},400,0,30`);
-    const { visibleTiles } = await state(page);
+    const { visibleTiles, drawnCrowns } = await state(page);
     expect(visibleTiles > 0, "no tile is drawn");
+    expect(counts.crowns > 0 && drawnCrowns > counts.crowns, `${drawnCrowns} columns of ${counts.crowns} crowns are drawn`);
+    // Crowns have no colours of the ramp
+    await page.click("#layer-trees");
+    await atRest(page);
     await expectColoursOfRamp(page, colours, nodata_colour);
     await chooseMiddle(page);
     const { picked } = await until(page, "the place", (now) => now.picked !== null);

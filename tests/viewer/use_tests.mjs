@@ -70,7 +70,7 @@ export const useTests = {
       reached.add(await page.evaluate(() => document.activeElement?.id || document.activeElement?.tagName));
       await page.keyboard.press("Tab");
     }
-    const wanted = ["city", "marker", "SUMMARY", "layer-ground", "layer-roofs", "layer-facades", "layer-grid", "zoom-in", "zoom-out", "north", "home", "theme", "close-panel", "projection", "ask-cell"];
+    const wanted = ["city", "marker", "SUMMARY", "layer-ground", "layer-roofs", "layer-facades", "layer-grid", "layer-trees", "zoom-in", "zoom-out", "north", "home", "theme", "close-panel", "projection", "ask-cell"];
     expectEqual(wanted.filter((id) => !reached.has(id)), [], "controls that Tab does not reach");
   },
 

@@ -9,6 +9,8 @@ export interface KeyActions {
   /** Asks for the place in the middle of the view. */
   choose(): void;
   close(): void;
+  /** Shows the crowns of trees, or hides them. */
+  toggleTrees(): void;
 }
 
 type Action = (event: KeyboardEvent) => void;
@@ -22,7 +24,7 @@ function actionsOf(navigation: Navigation, actions: KeyActions): Record<string, 
   return {
     ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, 1), ArrowDown: arrow(0, -1),
     "+": nearer, "=": nearer, "-": farther, "−": farther,
-    n: () => navigation.northUp(), h: () => navigation.home(), Enter: () => actions.choose(), Escape: () => actions.close(),
+    n: () => navigation.northUp(), h: () => navigation.home(), t: () => actions.toggleTrees(), Enter: () => actions.choose(), Escape: () => actions.close(),
   };
 }
 

@@ -3,7 +3,7 @@
 import type { LayerName } from "./link.ts";
 import { part } from "./page_parts.ts";
 
-const names: readonly LayerName[] = ["ground", "roofs", "facades", "grid"];
+const names: readonly LayerName[] = ["ground", "roofs", "facades", "grid", "trees"];
 
 /** On a screen as small as style.css has it, the boxes and lists would cover the city: they are folded until somebody opens them. */
 const smallScreen = "(max-width: 760px)";
@@ -15,6 +15,17 @@ export class LayerBoxes {
   constructor(onChange: () => void) {
     for (const box of this.boxes.values()) box.addEventListener("change", onChange);
     part("controls", HTMLDetailsElement).open = !window.matchMedia(smallScreen).matches;
+  }
+
+  /** Takes a box away that would switch nothing. */
+  remove(name: LayerName): void {
+    const box = this.boxes.get(name);
+    box?.closest("label")?.setAttribute("hidden", "");
+    this.boxes.delete(name);
+  }
+
+  toggle(name: LayerName): void {
+    this.boxes.get(name)?.click();
   }
 
   shows(name: LayerName): boolean {

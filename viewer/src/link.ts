@@ -10,7 +10,7 @@ import { isSkyProjection, type SkyProjection } from "./sky_projection.ts";
 import type { Theme } from "./theme.ts";
 import { comparisons } from "./value_pairs.ts";
 
-const layerNames = ["ground", "roofs", "facades", "grid"] as const;
+const layerNames = ["ground", "roofs", "facades", "grid", "trees"] as const;
 export type LayerName = (typeof layerNames)[number];
 
 /** What the part of an address after "#" holds. Places are projected, so that a link outlives a new packing. */

@@ -4,6 +4,7 @@ import { Vector2 } from "three";
 import { hideBanner, isSilent, sentenceOf, showBanner, tell } from "./banner.ts";
 import { CellPanel } from "./cell_panel.ts";
 import { CityScene } from "./city_scene.ts";
+import { Crowns } from "./crowns.ts";
 import { Frames } from "./frames.ts";
 import { GridLines } from "./grid_lines.ts";
 import { GridView } from "./grid_view.ts";
@@ -42,6 +43,7 @@ export class Page {
   readonly city: CityScene;
   readonly frames: Frames;
   readonly tiles: CityTiles;
+  readonly crowns: Crowns;
   readonly navigation: Navigation;
   readonly place: PlaceView;
   readonly grid: GridView;
@@ -72,7 +74,9 @@ export class Page {
     this.frames = new Frames(view);
     this.city = new CityScene(canvas, () => this.beforeFrame(), () => this.afterFrame());
     this.tiles = new CityTiles(view, this.values, this.city.camera, fail);
-    this.city.scene.add(this.tiles.group);
+    this.crowns = new Crowns(() => this.city.redraw(), fail);
+    this.city.scene.add(this.tiles.group, this.crowns.group);
+    if (view.counts.crowns === 0) this.layers.remove("trees");
     this.picker = new Picker(this.tiles);
     this.heights = new GroundHeights(this.picker, view.heights_m);
     this.navigation = new Navigation(this.city.camera, canvas, this.frames, view.heights_m);
@@ -92,7 +96,8 @@ export class Page {
   }
 
   get isResting(): boolean {
-    return this.city.isResting && this.tiles.isComplete && !this.navigation.isFlying && !this.place.isAsking && !this.results.isLoading;
+    return this.city.isResting && this.tiles.isComplete && !this.navigation.isFlying && !this.place.isAsking && !this.results.isLoading &&
+      !this.crowns.isLoading;
   }
 
   select(facet: PickedFacet): void {
@@ -117,6 +122,7 @@ export class Page {
   dispose(): void {
     this.city.dispose();
     this.tiles.dispose();
+    this.crowns.dispose();
     this.values.dispose();
   }
 
@@ -128,7 +134,9 @@ export class Page {
 
   private listen(canvas: HTMLCanvasElement): void {
     listenToPointer(canvas, (place) => this.choose(place), (place) => this.hover(place));
-    listenToKeys(canvas, this.navigation, { choose: () => this.choose(new Vector2(0, 0)), close: () => this.close() });
+    listenToKeys(canvas, this.navigation, {
+      choose: () => this.choose(new Vector2(0, 0)), close: () => this.close(), toggleTrees: () => this.layers.toggle("trees"),
+    });
     const press = (id: string, action: () => void): void => part(id, HTMLButtonElement).addEventListener("click", action);
     press("zoom-in", () => this.navigation.zoom(1 / zoomStep));
     press("zoom-out", () => this.navigation.zoom(zoomStep));
@@ -168,9 +176,16 @@ export class Page {
     const shown = { ground: this.layers.shows("ground"), roofs: this.layers.shows("roofs"), facades: this.layers.shows("facades") };
     this.tiles.layers = shown;
     this.picker.layers = shown;
+    this.crowns.shown = this.layers.shows("trees");
+    this.loadCrowns();
     if (this.grid.shown !== this.layers.shows("grid")) this.grid.show(this.layers.shows("grid"));
     this.city.redraw();
     this.noteLink();
+  }
+
+  /** After the first picture of the city, which crowns shall not delay. */
+  private loadCrowns(): void {
+    if (this.readyAt_ms !== null && this.layers.shows("trees")) this.crowns.load();
   }
 
   private applyTheme(background: string): void {
@@ -231,6 +246,7 @@ export class Page {
     tell(`${this.view.name} is shown.`);
     this.onReady();
     this.tiles.sharpen();
+    this.loadCrowns();
   }
 
   private restore(link: LinkedView): void {
@@ -293,6 +309,7 @@ export class Page {
     }
     hideBanner();
     this.tiles.retry();
+    this.loadCrowns();
     this.place.askAgain();
   }
 }

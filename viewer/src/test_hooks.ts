@@ -12,6 +12,8 @@ interface PageState {
   resting: boolean;
   readyAt_ms: number | null;
   visibleTiles: number;
+  /** Columns of crowns. */
+  drawnCrowns: number;
   drawnFrames: number;
   camera: CameraView;
   picked: (Omit<PickedFacet, "p_local" | "normal_local"> & { projected_m: Triple }) | null;
@@ -36,6 +38,7 @@ function stateOf(page: Page): PageState {
     resting: page.isResting,
     readyAt_ms: page.readyAt_ms,
     visibleTiles: page.tiles.visibleTiles,
+    drawnCrowns: page.crowns.drawn,
     drawnFrames: page.city.renderer.info.render.frame,
     camera: page.navigation.view(),
     picked: page.place.selection && pickedOf(page.place.selection.facet, page),
