@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -195,25 +196,59 @@ bool is_ground(const TileSurfaces& surfaces, const TileFacet& facet) {
   return surfaces.features[facet.feature].kind == SurfaceKind::ground;
 }
 
-/// Looks at facets of the ground without a value nearer to their corners.
-void fill_edges_of_buildings(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces, std::size_t azimuths,
-                             std::vector<float>& values) {
+/// Adds where the value of a facet is computed: at a place of its plane.
+void add_receiver(const ViewFrame& frame, const TileSurfaces& surfaces, const TileFacet& facet, const Point3d& p_local,
+                  ReceiverColumns& receivers) {
+  const Point3d p = frame.projected_from_local(p_local);
+  if (is_ground(surfaces, facet))
+    receivers.add_on_ground(p);
+  else
+    receivers.add_on_surface(p, facet.normal, frame.convergence);
+}
+
+/// Places of a facet nearer to its corners than to its middle, in the plane in which it is computed: corners of simplified tiles
+/// have moved out of it.
+std::array<Point3d, 3> places_at_corners(const TileFacet& facet) {
   constexpr double share = 0.6;
+  std::array<Point3d, 3> places;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Point3d way = share * (facet.corners_local[k] - facet.middle_local);
+    places[k] = facet.middle_local + way - dot(way, facet.normal) * facet.normal;
+  }
+  return places;
+}
+
+/// A receiver that sees less is in a building, or in the gap between two that touch.
+constexpr float least_free_svf = 0.02F;
+
+/// The mean of the values that are not below `least`; NaN where there are none.
+float mean_from(float least, std::span<const float> values) {
+  float sum = 0.0F, count = 0.0F;
+  for (const float value : values)
+    if (value >= least) sum += value, count += 1.0F;
+  return sum / count;
+}
+
+/// Looks at facets whose middle is covered nearer to their corners: a building may cut them, and the part beside it is seen. With
+/// the value of the middle it would be a grey or a dark tooth.
+void fill_cut_facets(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces, std::size_t azimuths,
+                     std::vector<float>& values) {
   std::vector<std::size_t> facets;
   ReceiverColumns receivers;
   for (std::size_t n = 0; n < values.size(); ++n) {
+    if (values[n] >= least_free_svf) continue;
     const TileFacet& facet = surfaces.facets[n];
-    if (!std::isnan(values[n]) || !is_ground(surfaces, facet)) continue;
     facets.push_back(n);
-    for (const Point3d& corner : facet.corners_local)
-      receivers.add_on_ground(frame.projected_from_local(facet.middle_local + share * (corner - facet.middle_local)));
+    for (const Point3d& place : places_at_corners(facet)) add_receiver(frame, surfaces, facet, place, receivers);
   }
   const std::vector<float> further = receivers.values(package, azimuths);
   for (std::size_t n = 0; n < facets.size(); ++n) {
-    float sum = 0.0F, count = 0.0F;
-    for (std::size_t k = 3 * n; k < 3 * n + 3; ++k)
-      if (!std::isnan(further[k])) sum += further[k], count += 1.0F;
-    if (count > 0.0F) values[facets[n]] = sum / count;
+    const auto of_facet = std::span<const float>(further).subspan(3 * n, 3);
+    float& value = values[facets[n]];
+    if (const float free = mean_from(least_free_svf, of_facet); !std::isnan(free))
+      value = free;
+    else if (std::isnan(value))
+      value = mean_from(0.0F, of_facet);
   }
 }
 
@@ -283,15 +318,9 @@ TileSurfaces surfaces_of(const Package& package, const ViewFrame& frame, const T
 
 std::vector<float> values_of(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces, std::size_t azimuths) {
   ReceiverColumns receivers;
-  for (const TileFacet& facet : surfaces.facets) {
-    const Point3d p = frame.projected_from_local(facet.middle_local);
-    if (is_ground(surfaces, facet))
-      receivers.add_on_ground(p);
-    else
-      receivers.add_on_surface(p, facet.normal, frame.convergence);
-  }
+  for (const TileFacet& facet : surfaces.facets) add_receiver(frame, surfaces, facet, facet.middle_local, receivers);
   std::vector<float> values = receivers.values(package, azimuths);
-  fill_edges_of_buildings(package, frame, surfaces, azimuths, values);
+  fill_cut_facets(package, frame, surfaces, azimuths, values);
   return values;
 }
 

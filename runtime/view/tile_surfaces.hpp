@@ -76,7 +76,7 @@ inline constexpr std::size_t azimuths_of_cells = 96, azimuths_of_larger_tiles = 
 inline constexpr double receiver_offset_m = 0.01;
 
 /// The sky view factor of each facet: of ground 1.5 m above it, looking up; of others on the surface, along its normal. NaN where
-/// there is none. A facet of the ground whose middle lies in a building has the mean of what is free of it.
+/// there is none. A facet whose middle lies in a building, or in the gap between two, has the mean of what is free of it.
 /// Throws PackageUnusable, PackageDamaged.
 [[nodiscard]] std::vector<float> values_of(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces,
                                            std::size_t azimuths);

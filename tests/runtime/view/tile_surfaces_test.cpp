@@ -129,6 +129,36 @@ TEST_F(TilesOfVillage, HeightsAreWithinTheFrame) {
   EXPECT_GT(frame_.high_local, 3.0);
 }
 
+/// The mean of the vertices of the first building, half as high as they are.
+Point3d middle_of_building(const Package& package, const ViewFrame& frame) {
+  const std::vector<MeshPart> parts = geometry_of(package, frame.cells);
+  const auto building = std::ranges::find_if(parts, [](const MeshPart& part) { return part.building.has_value(); });
+  Point3d middle;
+  for (const Point3d& p : building->vertices_projected)
+    middle = middle + 1.0 / static_cast<double>(building->vertices_projected.size()) * p;
+  return frame.local_from_projected(middle);
+}
+
+TEST_F(TilesOfVillage, ARoofThatABuildingCutsHasTheMeanOfItsFreePart) {
+  constexpr double share = 0.6;  // of the way to a corner, where else its value is looked for
+  const Point3d inside = middle_of_building(*package_, frame_);
+  const auto value_at = [&](const Point3d& p) {
+    TileSurfaces one{{}, {{"a", 1, SurfaceKind::roof}}};
+    one.facets.push_back({{p, p, p}, p, {0.0, 0.0, 1.0}, 0});
+    return values_of(*package_, frame_, one, azimuths_of_cells).front();
+  };
+  ASSERT_TRUE(std::isnan(value_at(inside)));
+  Point3d free = inside;
+  while (std::isnan(value_at(free))) free.x += 1.0;
+  const Point3d corner = inside + 1.0 / share * (free - inside);
+  TileSurfaces cut{{}, {{"a", 1, SurfaceKind::roof}}};
+  cut.facets.push_back({{inside, corner, inside}, inside, {0.0, 0.0, 1.0}, 0});
+  EXPECT_FLOAT_EQ(values_of(*package_, frame_, cut, azimuths_of_cells).front(), value_at(free));
+  // A corner that has left the plane of the facet, as vertices of simplified tiles do, changes nothing
+  cut.facets[0].corners_local[1].z += 4.0;
+  EXPECT_FLOAT_EQ(values_of(*package_, frame_, cut, azimuths_of_cells).front(), value_at(free));
+}
+
 /// Facets of a wavy ground, and of roofs above it, spread evenly.
 TileSurfaces spread_surfaces(const TileSquare& square, const ViewFrame& frame) {
   constexpr std::uint32_t count = 2000;
