@@ -92,6 +92,9 @@ function addBox(facets, box, parts) {
   });
 }
 
+/** At the southern border of the first cell, and seen from the south. */
+export const wallOfGround = [[20, 4, 0], [130, 4, 0], [130, 4, 20], [20, 4, 20]];
+
 /** The facets of a tile, finer the deeper it lies. */
 function facetsOfTile(level, x, y) {
   const facets = new Facets(), cells = 2 ** (levelOfCells - level), parts = [1, 2, 3, 6][level];
@@ -99,6 +102,8 @@ function facetsOfTile(level, x, y) {
     for (let j = y * cells; j < (y + 1) * cells; ++j) {
       const corners = [[0, 0], [150, 0], [150, 150], [0, 150]].map(([u, v]) => [i * 150 + u, j * 150 + v, 0]);
       facets.addQuad(facets.addSurface("", i * 8 + j, "ground"), corners, 6 * parts, 0, i === 7 && j === 7);
+      // As in a surface model, whose walls are ground
+      if (i === 0 && j === 0) facets.addQuad(facets.addSurface("", 64, "ground"), wallOfGround, parts, 90);
       for (const box of boxesOfCell(i, j)) addBox(facets, box, parts);
     }
   return facets;

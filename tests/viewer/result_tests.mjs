@@ -4,6 +4,7 @@
 // Results beside the package: with the mock, whose results are known; farlod-view is given the results of the town by its runner.
 import { atRest, linkWith, opened, pixels, seen, share, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
+import { grid, localOfGrid, wallOfGround } from "./mock_town.mjs";
 
 const colourOf = async (url, value) => (await (await fetch(`${url}view.json`)).json()).colours[Math.round(255 * value)];
 const near = ([r0, g0, b0]) => (r, g, b) => Math.abs(r - r0) + Math.abs(g - g0) + Math.abs(b - b0) < 12;
@@ -53,6 +54,17 @@ export const resultTests = {
     await page.selectOption("#ground-values", "-1");
     await atRest(page);
     expect(share(await pixels(page, west), near([190, 190, 190])) < 0.1, "the computed values did not come back");
+  },
+
+  async "a raster does not run down the walls of a surface model"({ url, context }) {
+    const { origin_m } = await (await fetch(`${url}view.json`)).json(), [x, y] = localOfGrid(75, wallOfGround[0][1]);
+    const camera = [origin_m[0] + x, origin_m[1] + y, origin_m[2] + 10, 60, grid.bearing_deg, 85].join(",");
+    const page = await opened(context, `${url}#camera=${camera}&layers=ground&ground=0&dots=`);
+    const isGrey = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 6 && r > 100 && r <= 192;
+    const grey = share(await pixels(page, { x: 440, y: 320, width: 120, height: 60 }), isGrey);
+    expect(grey > 0.95, `${(100 * grey).toFixed(1)} % of the wall have the colour of no data`);
+    await clickAt(page, [500, 350]);
+    expectEqual((await factsOf(page)).at(1), "no data", "what is told of the wall");
   },
 
   async "two rasters are compared by their difference"({ url, context }) {

@@ -4,6 +4,9 @@ import { DataTexture, FloatType, Matrix3, NearestFilter, RedFormat } from "three
 import type { RasterResult } from "./results.ts";
 import type { SourcePair } from "./value_pairs.ts";
 
+/** The vertical part of the normal of the steepest ground that a raster lies on: walls of a surface model would show its pixels as stripes. */
+export const leastUpward = 0.25;
+
 /** What the ground shows: the values of the tiles, or a raster. */
 type GroundSource = RasterResult | "computed";
 

@@ -4,13 +4,14 @@ import type { Points } from "three";
 import { tell } from "./banner.ts";
 import type { CityScene } from "./city_scene.ts";
 import { Divider } from "./divider.ts";
+import { leastUpward } from "./ground_values.ts";
 import { LatestOnly } from "./latest_only.ts";
 import { Legend } from "./legend.ts";
 import { part, showFacts } from "./page_parts.ts";
 import type { PickedFacet } from "./picking.ts";
 import { computed, type NumberPair, type ResultChoice, ResultControls } from "./result_controls.ts";
 import { dotsOf } from "./result_points.ts";
-import { isValue, PointsResult, RasterResult, type ResultInfo, SurfacesResult, titleOf, valueText } from "./results.ts";
+import { isValue, noValue, PointsResult, RasterResult, type ResultInfo, SurfacesResult, titleOf, valueText } from "./results.ts";
 import type { ShownValues } from "./shown_values.ts";
 import type { SourcePair } from "./value_pairs.ts";
 import type { ViewInfo } from "./view_info.ts";
@@ -146,7 +147,7 @@ export class ResultView {
   private async tellValues(): Promise<void> {
     const facet = this.facet;
     if (!facet) return;
-    const rows = facet.kind === "ground" ? rowsOf(this.values.ground.choice, (raster) => raster.at(facet.p_local.x, facet.p_local.y))
+    const rows = facet.kind === "ground" ? rowsOf(this.values.ground.choice, (raster) => valueOfGround(raster, facet))
       : rowsOf(this.values.buildings.choice, (surfaces) => surfaces.valueOf(facet.building, facet.surface));
     const perMetre_px = this.pixelsPerMetreAt(facet);
     for (const { result, dots } of this.points.values()) {
@@ -160,6 +161,11 @@ export class ResultView {
     const distance_m = this.city.camera.position.distanceTo(p_local), half = Math.tan((this.city.camera.fov * Math.PI) / 360);
     return this.city.size().y / (2 * half * distance_m);
   }
+}
+
+/** A raster says nothing of ground on which it is not drawn. */
+function valueOfGround(raster: RasterResult, { p_local, normal_local }: PickedFacet): number {
+  return Math.abs(normal_local.z) < leastUpward ? noValue : raster.at(p_local.x, p_local.y);
 }
 
 /** What the results of a pair say, and their difference. */

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { type DataTexture, DoubleSide, GLSL3, ShaderMaterial } from "three";
+import { leastUpward } from "./ground_values.ts";
 import { noValue } from "./results.ts";
 import type { ShownValues } from "./shown_values.ts";
 import { colourOfRamp, rampTexture } from "./value_colours.ts";
@@ -22,7 +23,7 @@ const vertexShader = /* glsl */ `
   uniform bool shownIsTabled, comparedIsTabled;
   out float shade;
   out vec2 place;  // local
-  flat out int isGround;
+  flat out int isGround, isSteep;
   flat out vec2 values;  // shown and compared; of the ground, those that its rasters stand in for
 
   const float noValue = ${noValue.toExponential()};
@@ -42,6 +43,7 @@ const vertexShader = /* glsl */ `
     isGround = kind == 0 ? 1 : 0;
     place = (modelMatrix * vec4(position, 1.0)).xy;
     vec3 normal = normalize(facet.xyz);
+    isSteep = abs(normal.z) < ${leastUpward} ? 1 : 0;
     // Simplified ground has slivers, whichever way they look
     if (kind == 0) normal = normalize(vec3(0.5 * normal.xy, max(0.5, abs(normal.z))));
     shade = 1.0 + 0.17 * min(0.0, dot(normal, light) - light.z);
@@ -55,7 +57,7 @@ const fragmentShader = /* glsl */ `
   precision highp sampler2D;
   in float shade;
   in vec2 place;
-  flat in int isGround;
+  flat in int isGround, isSteep;
   flat in vec2 values;
   uniform sampler2D ramp, differences, shownRaster, comparedRaster;
   uniform mat3 shownPixel, comparedPixel;
@@ -70,6 +72,7 @@ const fragmentShader = /* glsl */ `
 
   ${colourOfRamp}
   float valueAt(sampler2D raster, mat3 pixel_from_local) {
+    if (isSteep == 1) return noValue;
     ivec2 pixel = ivec2(floor((pixel_from_local * vec3(place, 1.0)).xy)), size = textureSize(raster, 0);
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y) return noValue;
     return texelFetch(raster, pixel, 0).r;
