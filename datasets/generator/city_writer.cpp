@@ -16,7 +16,7 @@
 
 namespace farlod {
 
-std::optional<CityFormat> city_format_of(const std::filesystem::path& path) {
+std::optional<CityFormat> generated_format_of(const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
   if (ending == ".gml") return CityFormat::citygml;
   if (ending == ".json") return CityFormat::cityjson;

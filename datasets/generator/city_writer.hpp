@@ -18,7 +18,7 @@ namespace farlod {
 enum class CityFormat { citygml, cityjson, obj, geojson };
 
 /// The format of a file by its ending: .gml, .city.json (or .json), .obj, .geojson. Empty for all others.
-[[nodiscard]] std::optional<CityFormat> city_format_of(const std::filesystem::path& path);
+[[nodiscard]] std::optional<CityFormat> generated_format_of(const std::filesystem::path& path);
 
 /// What a writer needs before the first building.
 struct CityHeader {

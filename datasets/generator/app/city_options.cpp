@@ -86,7 +86,7 @@ void check_geojson(const CitySettings& settings) {
 
 void resolve(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   o.output = raw.output;
-  const auto format = city_format_of(o.output);
+  const auto format = generated_format_of(o.output);
   if (!format) throw CLI::ValidationError("--output", raw.output + " must end in .gml, .city.json, .obj or .geojson");
   o.format = *format;
   o.trees = raw.trees;

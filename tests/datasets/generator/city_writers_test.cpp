@@ -32,7 +32,7 @@ CitySettings small_city(int lod) {
 }
 
 void write(const CitySettings& settings, const std::filesystem::path& path) {
-  const auto writer = make_city_writer(*city_format_of(path), path, header_of(settings, path));
+  const auto writer = make_city_writer(*generated_format_of(path), path, header_of(settings, path));
   writer->begin();
   visit_city(settings, {.building = [&writer](const GeneratedBuilding& building) { writer->add(building); }});
   writer->end();
@@ -302,12 +302,12 @@ TEST(GeneratedCityWriter, OddFileNamesDoNotSpoilTheFile) {
 }
 
 TEST(CityFormatOf, KnowsTheEndings) {
-  EXPECT_EQ(city_format_of("a/b.gml"), CityFormat::citygml);
-  EXPECT_EQ(city_format_of("b.city.json"), CityFormat::cityjson);
-  EXPECT_EQ(city_format_of("b.obj"), CityFormat::obj);
-  EXPECT_EQ(city_format_of("b.geojson"), CityFormat::geojson);
-  EXPECT_FALSE(city_format_of("b.tif"));
-  EXPECT_FALSE(city_format_of("obj"));
+  EXPECT_EQ(generated_format_of("a/b.gml"), CityFormat::citygml);
+  EXPECT_EQ(generated_format_of("b.city.json"), CityFormat::cityjson);
+  EXPECT_EQ(generated_format_of("b.obj"), CityFormat::obj);
+  EXPECT_EQ(generated_format_of("b.geojson"), CityFormat::geojson);
+  EXPECT_FALSE(generated_format_of("b.tif"));
+  EXPECT_FALSE(generated_format_of("obj"));
 }
 
 TEST(AppendMetres, WritesThreeDecimalsAlways) {
