@@ -9,7 +9,7 @@
 namespace farlod {
 namespace {
 
-/// Of the geometric error of a tile: how far a skirt leads outwards and down.
+/// How far a skirt leads outwards and down, as a share of the geometric error of its tile.
 constexpr double share_of_error = 0.1;
 /// Cosine of the tilt of a facet from which on a skirt would be seen beside it.
 constexpr double least_upward = 0.5;

@@ -6,7 +6,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { atRest, decoded, differing, opened, pixels, ready, seen, share, state } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 import { startMock } from "./mock_server.mjs";
-import { columnsOfGrove } from "./mock_town.mjs";
+import { sizeOfGrove } from "./mock_town.mjs";
 
 /** The city, without the cards at its sides. */
 const city = { x: 260, y: 120, width: 480, height: 460 };
@@ -100,7 +100,7 @@ export const lookTests = {
   async "draws crowns of trees, and hides them by T and by a link"({ url, context }) {
     const isGreen = (r, g, b) => g > r + 12 && g > b + 25 && r + g + b < 330, green = async (page) => share(await pixels(page, city), isGreen);
     const page = await opened(context, url), { drawnCrowns } = await state(page), withCrowns = await green(page);
-    expectEqual(drawnCrowns, columnsOfGrove, "columns of crowns");
+    expectEqual(drawnCrowns, sizeOfGrove, "columns of crowns");
     await page.focus("#city");
     await page.keyboard.press("t");
     expectEqual([(await atRest(page)).drawnCrowns, await page.isChecked("#layer-trees")], [0, false], "what T leaves of the crowns");
@@ -110,7 +110,7 @@ export const lookTests = {
     const old = await opened(context, `${url}#layers=ground,roofs,facades`);
     expectEqual((await state(old)).drawnCrowns, 0, "columns of crowns of an old link");
     await old.click("#layer-trees");
-    expectEqual((await atRest(old)).drawnCrowns, columnsOfGrove, "columns of crowns after a click");
+    expectEqual((await atRest(old)).drawnCrowns, sizeOfGrove, "columns of crowns after a click");
   },
 
   async "has no layer of trees where there are none"({ context }) {

@@ -8,7 +8,7 @@ import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { fileURLToPath } from "node:url";
 import { resultsOfTown } from "./mock_results.mjs";
-import { boxesOfCell, columnsOfGrove, crownsOfTown, glbOfTile, grid, gridOfLocal, localOfGrid, origin_m, subtreeOfTown, tilesetOfTown, valueAt } from "./mock_town.mjs";
+import { boxesOfCell, sizeOfGrove, crownsOfTown, glbOfTile, grid, gridOfLocal, localOfGrid, origin_m, subtreeOfTown, tilesetOfTown, valueAt } from "./mock_town.mjs";
 
 const bundle = new URL("../../viewer/bundle/", import.meta.url);
 const types = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", txt: "text/plain; charset=utf-8" };
@@ -26,7 +26,7 @@ for (let i = grid.i_begin; i < grid.i_end; ++i) for (let j = grid.j_begin; j < g
 function viewOf(canAnswer, hasTrees) {
   return {
     software: "mock of farlod-view", name: "boxes.farlod", crs: "JGD2011 / Japan Plane Rectangular CS IX", epsg: 6677, origin_m, can_answer: canAnswer, grid,
-    heights_m: [0, 85], counts: { buildings: boxes.length, polygons: boxes.length * 5, triangles: boxes.length * 10, crowns: hasTrees ? columnsOfGrove : 0 },
+    heights_m: [0, 85], counts: { buildings: boxes.length, polygons: boxes.length * 5, triangles: boxes.length * 10, crowns: hasTrees ? sizeOfGrove : 0 },
     far_map_kind: "horizon", receiver_height_m: 1.5, colours, nodata_colour: [190, 190, 190], tileset: "tileset.json",
     results: resultsOfTown.map(({ body, labels, ...info }) => info),
   };

@@ -44,7 +44,7 @@ export function crownsOfTown() {
     [Math.floor(n / 4) % side, Math.floor(n / 4 / side), 0, 200][n % 4]);
   return Buffer.concat([Buffer.from(head.buffer), Buffer.from(columns.buffer)]);
 }
-export const columnsOfGrove = 1600;
+export const sizeOfGrove = 1600;
 
 /** Not a sky view factor, but something as smooth, between 0 and 1. */
 export function valueAt(x, y, z, tilt_deg) {
