@@ -38,7 +38,7 @@ inline constexpr double finest_canopy_step_m = 0.5;
 /// The columns of all crowns:
 ///   (1) there are at most `most` of them, in the finest step of ½, 1, 2, 4 … m that allows it; where
 ///       a coarser one has the same, as of a raster of pixels of 2 m, in that one
-///   (2) a column is as high as the crowns at the middle of its square, so that area and volume are those of the crowns, up to
+///   (2) a column is as high as the crowns at the middle of its square, so that area and volume are those of the crowns, but for
 ///       the squares that their borders cross
 /// Empty of a package without crowns. Throws PackageUnusable, PackageDamaged.
 [[nodiscard]] CanopyColumns canopy_columns_of(const Package& package, const ViewFrame& frame,
