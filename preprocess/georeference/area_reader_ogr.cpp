@@ -11,6 +11,7 @@
 
 #include "base/expects.hpp"
 #include "base/point_columns.hpp"
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
@@ -25,7 +26,14 @@ namespace {
   throw InputError(file.string() + what + " (" + messages.last() + ").");
 }
 
+/// Whether somebody means X0,Y0,X1,Y1, and writes it otherwise.
+bool is_box_in_words(const std::string& text) {
+  return text.find_first_not_of("0123456789.,;- ") == text.npos && text.find_first_of(",; ") != text.npos;
+}
+
 GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& messages) {
+  std::error_code unread;
+  if (!std::filesystem::exists(file, unread) && !is_box_in_words(file.string())) throw InputError(why_unread(file));
   GDALDatasetUniquePtr dataset = open_vector_file_or_table(file);
   if (!dataset)
     fail(file, " cannot be read as an area: give X0,Y0,X1,Y1, a vector file that GDAL reads, or a table of points", messages);

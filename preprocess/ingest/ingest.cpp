@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_reader.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
@@ -44,7 +45,7 @@ bool is_empty(const InputFile& file) {
 
 void require_content(const InputFile& file) {
   std::error_code error;
-  if (!fs::exists(file.on_disk, error)) throw InputError(file.name + " does not exist. Check the path.");
+  if (!fs::exists(file.on_disk, error)) throw InputError(why_unread(file.on_disk));
   if (is_empty(file)) throw InputError(file.name + " is empty: 0 bytes. Was the download cut short?");
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/grid_outline.hpp"
+#include "base/unread_file.hpp"
 #include "city/geometry.hpp"
 #include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
@@ -257,6 +258,7 @@ TerrainTiles tiles_of(const std::vector<std::filesystem::path>& given) {
   TerrainTiles tiles;
   std::error_code unread;
   for (const std::filesystem::path& path : given) {
+    if (!std::filesystem::exists(path, unread)) throw InputError(why_unread(path));
     const bool is_folder = std::filesystem::is_directory(path, unread);
     for (const std::filesystem::path& tile : is_folder ? rasters_in(path) : std::vector{path}) {
       tiles.files.emplace_back(tile, !is_folder);
@@ -352,7 +354,7 @@ void require_files_exist(const TreeSettings& settings) {
   if (settings.trunks) files.push_back(*settings.trunks);
   std::error_code unread;
   for (const std::filesystem::path& file : files)
-    if (!std::filesystem::exists(file, unread)) throw InputError(file.string() + " does not exist. Check the path.");
+    if (!std::filesystem::exists(file, unread)) throw InputError(why_unread(file));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/point_columns.hpp"
+#include "base/unread_file.hpp"
 #include "inputs/text_records.hpp"
 
 namespace farlod {
@@ -109,8 +110,7 @@ Attributes attributes_of_header(const TextRecord& header, std::span<const std::s
 std::ifstream open_table(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   // A folder opens like a file, and fails only when it is read
-  if (!stream || std::filesystem::is_directory(path))
-    throw PointsError(path.string() + ": the file cannot be read; see that it exists and that you may read it");
+  if (!stream || std::filesystem::is_directory(path)) throw PointsError(why_unread(path));
   return stream;
 }
 
@@ -145,12 +145,22 @@ class UnreadRows {
   std::size_t count_ = 0;
 };
 
+/// Throws PointsError for a page, a document or an archive: what would be said of its columns leads nowhere.
+std::vector<TextRecord> records_of_points(const std::filesystem::path& path) {
+  constexpr std::size_t bytes_of_beginning = 512;
+  const std::string text = text_of(path);
+  const std::string_view beginning = std::string_view(text).substr(0, bytes_of_beginning);
+  if (beginning.starts_with('<') || beginning.starts_with("%PDF") || beginning.find('\0') != beginning.npos)
+    throw PointsError(path.string() + " is no table: give points as CSV with columns x and y, or as a vector file.");
+  return records_in(text);
+}
+
 bool may_be_lon_lat(const RequestedPoint& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; }
 
 }  // namespace
 
 RequestedPoints read_points_csv(const std::filesystem::path& path) {
-  const std::vector<TextRecord> records = records_in(text_of(path));
+  const std::vector<TextRecord> records = records_of_points(path);
   if (records.empty())
     throw PointsError(path.string() + ": the file holds no points; write one in each row, as x,y or with a header row");
   const bool header = is_header(records.front());

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/height_raster_gdal.hpp"
@@ -24,10 +25,13 @@ namespace {
 constexpr double tolerance = 0.01;
 
 GDALDatasetUniquePtr open_raster(const std::filesystem::path& file, const GdalErrors& errors) {
-  if (!std::filesystem::exists(file)) throw PointsError(file.string() + ": the file cannot be read; see that it exists");
+  if (!std::filesystem::exists(file)) throw PointsError(why_unread(file));
   GDALDatasetUniquePtr dataset = open_within(GdalReach::local_files, file, GDAL_OF_RASTER);
   if (dataset == nullptr)
-    throw PointsError(file.string() + " cannot be read as a raster" + (errors.any() ? " (" + errors.last() + ")" : ""));
+    throw PointsError(std::filesystem::is_directory(file)
+                          ? why_unread(file)
+                          : file.string() + " cannot be read as a raster" + (errors.any() ? " (" + errors.last() + ")" : "") +
+                                ": give a GeoTIFF or another raster of GDAL's.");
   return dataset;
 }
 

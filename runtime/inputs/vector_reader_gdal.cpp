@@ -9,10 +9,12 @@
 #include <cmath>
 #include <memory>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/lower_case.hpp"
+#include "base/unread_file.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
@@ -62,13 +64,20 @@ OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::str
   return *chosen_layer(dataset, file, choice);
 }
 
+std::string no_vector_file(const std::filesystem::path& path, const GdalErrors& messages) {
+  std::error_code unread;
+  if (std::filesystem::is_directory(path, unread) || std::filesystem::is_empty(path, unread)) return why_unread(path);
+  return path.string() + " cannot be read as a vector file" + (messages.any() ? " (" + messages.last() + ")" : "") +
+         ": give a GeoPackage, GeoJSON, Shapefile or another format of GDAL's.";
+}
+
 /// A layer that is open, with the messages of GDAL since then.
 class OpenLayer {
  public:
   OpenLayer(const std::filesystem::path& path, const std::string& name) : file_(path.string()) {
-    if (!std::filesystem::exists(path)) throw PointsError(file_ + ": the file cannot be read; see that it exists");
+    if (!std::filesystem::exists(path)) throw PointsError(why_unread(path));
     dataset_ = open_vector_file(path);
-    if (!dataset_) throw PointsError(file_ + " cannot be read as a vector file (" + messages_.last() + ")");
+    if (!dataset_) throw PointsError(no_vector_file(path, messages_));
     layer_ = &layer_of(*dataset_, name, file_);
     require_utf8_names(*layer_, file_, nullptr);
   }
@@ -343,10 +352,10 @@ RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::st
 }
 
 Region read_region_gdal(const std::filesystem::path& path, const std::string& package_crs) {
-  if (!std::filesystem::exists(path)) throw PointsError(path.string() + ": the file cannot be read; see that it exists");
+  if (!std::filesystem::exists(path)) throw PointsError(why_unread(path));
   GdalErrors messages;
   const GDALDatasetUniquePtr dataset = open_vector_file(path);
-  if (!dataset) throw PointsError(path.string() + " cannot be read as a vector file (" + messages.last() + ")");
+  if (!dataset) throw PointsError(no_vector_file(path, messages));
   Rings all;
   for (OGRLayer* layer : dataset->GetLayers()) {
     Rings rings = rings_of(*layer);

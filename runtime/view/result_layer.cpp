@@ -16,6 +16,7 @@
 #include "inputs/point_reader.hpp"
 #include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
+#include "base/unread_file.hpp"
 #include "results/gdal_files.hpp"
 #endif
 
@@ -299,8 +300,7 @@ std::string ResultLayer::bytes() const {
 
 ResultLayer read_result_layer(const std::string& request, const Package& package, const ViewFrame& frame) {
   const ResultRequest wanted = parsed(request);
-  if (!std::filesystem::exists(wanted.file))
-    throw InputError(wanted.file.string() + " does not exist. Check the path of the result.");
+  if (!std::filesystem::exists(wanted.file)) throw InputError(why_unread(wanted.file));
   if (wanted.file.extension() == ".json")
     throw InputError(wanted.file.string() +
                      " is no result that can be drawn. Problems are drawn from farlod-pack --report FILE.geojson.");

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "inputs/requested_points.hpp"
 #include "inputs/text_records.hpp"
@@ -54,8 +55,7 @@ std::vector<std::string_view> lines_in(std::string_view text) {
 WeatherText::WeatherText(const std::filesystem::path& path) : path_(path) {
   std::ifstream stream(path, std::ios::binary);
   // A folder opens like a file, and fails only when it is read
-  if (!stream || std::filesystem::is_directory(path))
-    refuse_file("the file cannot be read; see that it exists and that you may read it");
+  if (!stream || std::filesystem::is_directory(path)) throw InputError(why_unread(path));
   text_.assign(std::istreambuf_iterator<char>(stream), {});
   const std::string_view text = without_byte_order_mark(text_);
   const std::size_t begin = text.find_first_not_of(" \t\r\n");

@@ -353,7 +353,7 @@ TEST_F(TownWithAnArea, WrongAreasAreRefused) {
   EXPECT_EQ(beside.exit_code, exit_usage);
   EXPECT_THAT(beside.err,
               AllOf(HasSubstr("meets no cell of the grid"), HasSubstr("from 1.0,2.0 to 3.0,4.0"), HasSubstr("UTM zone 32N")));
-  expect_refusal(with("lost.gpkg"), exit_unusable_input, {"lost.gpkg cannot be read as an area"});
+  expect_refusal(with("lost.gpkg"), exit_unusable_input, {"lost.gpkg does not exist"});
   EXPECT_FALSE(folder.has("n.farlod"));
 }
 

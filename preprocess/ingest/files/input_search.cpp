@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "ingest/files/file_format.hpp"
 #include "ingest/files/foreign_format.hpp"
@@ -173,6 +174,16 @@ InputFile readable_pipe(const fs::path& path) {
   return file;
 }
 
+/// Somebody packs what is packed already: its manifest would be taken for a wrong CityJSON, and its folder for one of no city.
+void refuse_package(const fs::path& input) {
+  constexpr const char* manifest = "manifest.json";
+  std::error_code unread;
+  const fs::path folder = input.filename() == manifest ? input.parent_path() : input;
+  if (fs::is_regular_file(folder / manifest, unread) && fs::is_directory(folder / "blocks", unread))
+    throw InputError((folder.empty() ? input : folder).string() +
+                     " is a package already: farlod-svf computes from it. To pack again, give the files of the city.");
+}
+
 class InputSearch {
  public:
   InputSearch(Report& report, const std::optional<std::string>& layer) : report_(report), layer_(layer) {}
@@ -180,7 +191,8 @@ class InputSearch {
   FoundInputs search(std::span<const fs::path> inputs) {
     std::error_code error;
     for (const fs::path& input : inputs)
-      if (!fs::exists(input, error)) throw InputError(input.string() + " does not exist. Check the path.");
+      if (!fs::exists(input, error)) throw InputError(why_unread(input));
+    for (const fs::path& input : inputs) refuse_package(input);
     for (const fs::path& input : inputs) {
       rasters_.clear();
       only_by_name_.clear();

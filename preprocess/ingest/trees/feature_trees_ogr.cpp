@@ -11,6 +11,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/lower_case.hpp"
+#include "base/unread_file.hpp"
 #include "city/city_model.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
@@ -28,6 +29,7 @@ constexpr const char* encoding_option = "--encoding";
 GDALDatasetUniquePtr open(const std::filesystem::path& file, const std::optional<std::string>& encoding, GdalErrors& messages) {
   GDALDatasetUniquePtr dataset = open_vector_file_or_table(file, encoding);
   if (dataset) return dataset;
+  if (std::filesystem::is_directory(file)) throw InputError(why_unread(file));
   const std::string reason = messages.last();
   throw InputError(file.string() + " cannot be read as an inventory of trees: give a vector file that GDAL reads, or a table" +
                    (reason.empty() ? "." : " (" + reason + ")."));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/lower_case.hpp"
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "ingest/files/file_format.hpp"
 
@@ -247,7 +248,7 @@ SourceTrees TreeCollector::finish(std::uint64_t count, Report& report) {
 SourceTrees read_trees(const std::filesystem::path& file, const TreeSettings& settings, Report& report,
                        const std::stop_token& stop) {
   std::error_code unread;
-  if (!std::filesystem::exists(file, unread)) throw InputError(file.string() + " does not exist. Check the path.");
+  if (!std::filesystem::exists(file, unread)) throw InputError(why_unread(file));
   const bool is_file = std::filesystem::is_regular_file(file, unread);
   if (is_file && std::filesystem::file_size(file, unread) == 0)
     throw InputError(file.string() + " is empty: 0 bytes. Was the download cut short?");

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
 #include "results/atomic_file.hpp"
@@ -158,7 +159,7 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 
 std::ifstream opened(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string() + " cannot be read");
+  if (!file) throw InputError(why_unread(path));
   return file;
 }
 
@@ -322,7 +323,7 @@ bool has_name(std::string_view text, std::string_view name) {
 EnrichedCityFile::EnrichedCityFile(const Package& package, const std::string& package_name, std::filesystem::path city,
                                    AnswerColumns columns)
     : path_(std::move(city)), columns_(std::move(columns)), xxh3_(xxh3_of_file(path_)) {
-  if (xxh3_.empty()) throw InputError(path_.string() + " cannot be read");
+  if (xxh3_.empty()) throw InputError(why_unread(path_));
   const PackageInventory inventory = inventory_of(package);
   if (std::ranges::none_of(inventory.inputs, [this](const PackedInput& input) { return is_this_file(input); }))
     throw InputError(path_.string() + " is not a file that " + package_name +

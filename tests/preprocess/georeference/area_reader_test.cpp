@@ -131,7 +131,7 @@ TEST_F(AreaReader, SaysWhatIsWrongWithATable) {
 }
 
 TEST_F(AreaReader, SaysWhatIsWrongWithAFile) {
-  EXPECT_THAT(refusal(file("lost.gpkg")), HasSubstr("lost.gpkg cannot be read as an area"));
+  EXPECT_THAT(refusal(file("lost.gpkg")), HasSubstr("lost.gpkg does not exist"));
   EXPECT_THAT(refusal(write("text.gpkg", "no geometry")), HasSubstr("cannot be read as an area"));
   EXPECT_THAT(refusal(write("none.geojson", R"({"type":"FeatureCollection","features":[]})")), HasSubstr("no points"));
   EXPECT_THAT(refusal(write("far.geojson", geojson(R"({"type":"Point","coordinates":[500001,5500002]})"))),

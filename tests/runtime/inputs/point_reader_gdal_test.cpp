@@ -166,7 +166,7 @@ TEST_F(PointReaderGdal, NoPointsAtAllAreRefused) {
   EXPECT_THAT(complaint_about(path), HasSubstr("none of its 1 features is one"));
   VectorFile("GPKG", folder.file("empty.gpkg")).layer("a", 25832, wkbPoint, {});
   EXPECT_THAT(complaint_about(folder.file("empty.gpkg")), HasSubstr("its layer is empty"));
-  EXPECT_THAT(complaint_about(folder.file("lost.gpkg")), HasSubstr("cannot be read"));
+  EXPECT_THAT(complaint_about(folder.file("lost.gpkg")), HasSubstr("does not exist"));
   std::ofstream(folder.file("broken.gpkg")) << "SQLite format 3";
   EXPECT_THAT(complaint_about(folder.file("broken.gpkg")), HasSubstr("cannot be read as a vector file"));
 }
@@ -354,7 +354,7 @@ TEST_F(RegionReader, TakesHolesAndMultipolygonsAndLeavesTheRest) {
 TEST_F(RegionReader, RefusesWhatHoldsNoPolygons) {
   EXPECT_THAT(complaint_about(file_of(R"({"type": "Point", "coordinates": [1, 2]})", "EPSG:25832")),
               testing::HasSubstr("holds no polygons"));
-  EXPECT_THAT(complaint_about(folder_.file("lost.gpkg")), testing::HasSubstr("cannot be read"));
+  EXPECT_THAT(complaint_about(folder_.file("lost.gpkg")), testing::HasSubstr("does not exist"));
   std::ofstream(folder_.file("broken.gpkg")) << "SQLite format 3";
   EXPECT_THAT(complaint_about(folder_.file("broken.gpkg")), testing::HasSubstr("cannot be read as a vector file"));
 }

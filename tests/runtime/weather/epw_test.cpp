@@ -303,10 +303,10 @@ TEST(WeatherFile, ThatIsNoneIsRefused) {
   EXPECT_THAT(complaint_about("\x1F\x8Bgz"), HasSubstr("it is packed by gzip"));
   EXPECT_THAT(complaint_about("id,x,y\n1,2,3\n"), HasSubstr("weather.epw:1: the file is no weather: no column is a time"));
   EXPECT_THAT(scenes::refusal_of<InputError>([] { (void)read_weather("/nowhere/a.epw", std::nullopt); }),
-              HasSubstr("/nowhere/a.epw: the file cannot be read"));
+              HasSubstr("/nowhere/a.epw does not exist"));
   const scenes::TemporaryFolder folder;
   EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_weather(folder.path(), std::nullopt); }),
-              HasSubstr("cannot be read"));
+              HasSubstr("is a folder: give a file"));
 }
 
 }  // namespace

@@ -198,8 +198,8 @@ TEST_F(RasterGridReader, RefusesAnotherCrs) {
 }
 
 TEST_F(RasterGridReader, RefusesWhatIsNoRaster) {
-  EXPECT_THAT(complaint_about(folder_.file("lost.tif")), HasSubstr("see that it exists"));
-  EXPECT_THAT(complaint_about(folder_.path()), HasSubstr("cannot be read as a raster"));
+  EXPECT_THAT(complaint_about(folder_.file("lost.tif")), HasSubstr("does not exist"));
+  EXPECT_THAT(complaint_about(folder_.path()), HasSubstr("is a folder: give a file"));
 }
 
 }  // namespace
