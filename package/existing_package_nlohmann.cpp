@@ -142,11 +142,11 @@ struct ExistingPackage::Impl {
 
   [[noreturn]] void refuse(const std::string& difference) const {
     throw OutputError(folder.string() + " is not the package of these inputs and options: " + difference +
-                      ". Let it be replaced (--force, in Python overwrite=True), or choose another folder.");
+                      ". Let it be replaced (--force), or choose another folder.");
   }
   [[noreturn]] void refuse_unread(const Error& reason) const {
     throw OutputError("cannot go on with " + folder.string() + ": " + reason.what() +
-                      " Let it be replaced (--force, in Python overwrite=True), or choose another folder.");
+                      " Let it be replaced (--force), or choose another folder.");
   }
   void require_same(const Json& now, std::span<const char* const> keys) const {
     for (const char* key : keys) {

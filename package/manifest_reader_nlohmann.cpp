@@ -14,6 +14,7 @@
 
 #include "package/layout.hpp"
 #include "package/manifest.hpp"
+#include "package/no_package.hpp"
 #include "package/package_folder.hpp"
 
 namespace farlod {
@@ -286,9 +287,7 @@ Manifest read_text(std::string_view text, const std::string& name) {
 std::string text_of(const PackageFolder& folder) {
   const PackageFile manifest = folder.plain_file(manifest_file);
   std::ifstream file(manifest.path, std::ios::binary);
-  if (!file)
-    throw PackageUnusable(folder.name().string() + " is not a finished package: it has no " + manifest_file +
-                          ". Was farlod-pack interrupted? Pack the city again.");
+  if (!file) throw no_package(folder.name());
   std::error_code unread;
   if (std::filesystem::file_size(manifest.path, unread) > most_bytes)
     throw PackageDamaged(manifest.name + " is damaged: it has more than " + std::to_string(most_bytes) +

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/file_lock.hpp"
+#include "package/no_package.hpp"
 
 namespace farlod {
 namespace fs = std::filesystem;
@@ -54,9 +55,7 @@ void require_folder(const fs::path& name) {
                           " is not finished: farlod-pack is making it, or was interrupted; the same command goes "
                           "on with " +
                           unfinished.string() + ".");
-  if (fs::exists(status))
-    throw PackageUnusable(name.string() + " is a file, and a package is a folder: farlod-pack makes one of a city file.");
-  throw PackageUnusable(name.string() + " is not a package: there is no such folder. farlod-pack makes one.");
+  throw no_package(name);
 }
 
 /// A descriptor of a folder. Paths below /proc/self/fd lead to what it was opened on, whatever has its name.

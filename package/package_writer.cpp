@@ -86,8 +86,7 @@ void require_room(const fs::path& folder, Overwrite overwrite) {
   // What has blocks and no manifest was never finished
   std::error_code unread;
   if (overwrite == Overwrite::refuse && fs::exists(folder / package::manifest_file, unread))
-    throw OutputError(folder.string() +
-                      " exists already: let it be replaced (--force, in Python overwrite=True), or choose another folder.");
+    throw OutputError(folder.string() + " exists already: let it be replaced (--force), or choose another folder.");
 }
 
 void put_in_place(const fs::path& finished, const fs::path& package, const fs::path& aside) {
