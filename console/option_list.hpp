@@ -7,6 +7,7 @@
 
 namespace CLI {
 class App;
+class Option;
 class Validator;
 }  // namespace CLI
 
@@ -43,6 +44,9 @@ struct OptionList {
   std::vector<OptionDescription> arguments;
   std::vector<OptionGroup> groups;  ///< those of which one option is required first, --help and --version last
 };
+
+/// An option as --help shows it.
+[[nodiscard]] OptionDescription description_of(const CLI::Option& option);
 
 /// All options that --help shows.
 [[nodiscard]] OptionList options_of(const CLI::App& app);

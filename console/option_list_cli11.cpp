@@ -37,7 +37,9 @@ void add_condition(const std::string& condition, OptionDescription& option) {
     option.range = condition == "POSITIVE" ? "more than 0" : condition;
 }
 
-OptionDescription described(const CLI::Option& o) {
+}  // namespace
+
+OptionDescription description_of(const CLI::Option& o) {
   OptionDescription option;
   for (const std::string& name : o.get_snames()) option.names.push_back("-" + name);
   for (const std::string& name : o.get_lnames()) option.names.push_back("--" + name);
@@ -58,11 +60,13 @@ OptionDescription described(const CLI::Option& o) {
   return option;
 }
 
+namespace {
+
 void add_groups(const CLI::App& app, std::vector<OptionGroup>& groups) {
   for (const std::string& name : app.get_groups()) {
     OptionGroup group{name, "", false, {}};
     for (const CLI::Option* o : app.get_options([&](const CLI::Option* each) { return each->get_group() == name; }))
-      if (o->nonpositional()) group.options.push_back(described(*o));
+      if (o->nonpositional()) group.options.push_back(description_of(*o));
     if (!name.empty() && !group.options.empty()) groups.push_back(std::move(group));
   }
 }
@@ -73,7 +77,7 @@ OptionGroup described_group(const CLI::App& app) {
   group.exactly_one = app.get_require_option_min() == 1 && app.get_require_option_max() == 1;
   // Each group has a --help of its own, which CLI11 does not show either
   for (const CLI::Option* o : app.get_options([&](const CLI::Option* each) { return each != app.get_help_ptr(); }))
-    if (!o->get_group().empty()) group.options.push_back(described(*o));
+    if (!o->get_group().empty()) group.options.push_back(description_of(*o));
   return group;
 }
 
@@ -82,7 +86,7 @@ OptionGroup described_group(const CLI::App& app) {
 OptionList options_of(const CLI::App& app) {
   OptionList list;
   for (const CLI::Option* o : app.get_options([](const CLI::Option* each) { return each->get_positional(); }))
-    list.arguments.push_back(described(*o));
+    list.arguments.push_back(description_of(*o));
   for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; }))
     list.groups.push_back(described_group(*group));
   add_groups(app, list.groups);

@@ -8,13 +8,13 @@
 #include <istream>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <sstream>
 #include <thread>
 #include <utility>
 
 #include "console/option_list.hpp"
 #include "console/run_options.hpp"
+#include "console/wrong_usage.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {
@@ -91,41 +91,6 @@ void add_given(const CLI::App& app, std::vector<GivenOption>& given) {
   for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) add_given(*group, given);
 }
 
-/// How many characters must be put in, left out or changed to make one word of another (Levenshtein 1966).
-std::size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
-    }
-  }
-  return row.back();
-}
-
-void add_names(const CLI::App& app, std::vector<std::string>& names) {
-  for (const CLI::Option* o : app.get_options())
-    for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
-  for (const CLI::App* group : app.get_subcommands([](const CLI::App*) { return true; })) add_names(*group, names);
-}
-
-/// What was not expected: a misspelt option, with the one that is nearest, or one argument too many.
-CLI::ValidationError unexpected(const CLI::App& app) {
-  constexpr std::size_t most_edits = 2;
-  const std::vector<std::string> rest = app.remaining();
-  const auto option = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with("-"); });
-  if (option == rest.end())
-    return CLI::ValidationError(rest.front(), "nothing is known of this argument; put what has spaces into quotes");
-  const std::string name = option->substr(0, option->find('='));
-  std::vector<std::string> names;
-  add_names(app, names);
-  const auto nearest = std::ranges::min_element(names, {}, [&](const std::string& other) { return edits_between(name, other); });
-  const bool is_near = edits_between(name, *nearest) <= most_edits;
-  return CLI::ValidationError(name, "there is no such option" + (is_near ? "; did you mean " + *nearest + "?" : std::string()));
-}
-
 }  // namespace
 
 std::size_t thread_count(const RunOptions& options) {
@@ -157,16 +122,15 @@ void add_run_options(CLI::App& app, const std::string& program, RunOptions& o) {
 std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, const std::function<void()>& resolve) {
   try {
     app.parse(argc, argv);
+    require_no_option_as_value(app);
     resolve();
-  } catch (const CLI::ConfigError& error) {
-    app.exit(
-        CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
-    return exit_usage;
-  } catch (const CLI::ExtrasError&) {
-    app.exit(unexpected(app));
-    return exit_usage;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_done : exit_usage;
+    if (error.get_exit_code() == 0) {
+      app.exit(error);
+      return exit_done;
+    }
+    app.exit(CLI::ValidationError(wrong_usage_text(app, error)));
+    return exit_usage;
   }
   return std::nullopt;
 }

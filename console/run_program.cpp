@@ -94,12 +94,6 @@ std::stop_token Interruption::token() { return state().stop.get_token(); }
 int Interruption::signal() { return state().signal; }
 int Interruption::exit_code() { return 128 + signal(); }
 
-void require_folder_of(const std::filesystem::path& file) {
-  const auto folder = file.parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw OutputError(file, "there is no folder " + folder.string() + "; make it first, or choose another");
-}
-
 void write_text(const std::string& path, const std::string& text) {
   if (path.empty()) return;
   std::ofstream file(path);

@@ -28,9 +28,6 @@ class Interruption {
   [[nodiscard]] static int exit_code();
 };
 
-/// Asked before the work, which may take hours. No name needs no folder. Throws OutputError.
-void require_folder_of(const std::filesystem::path& file);
-
 /// Writes a file such as that of `--summary`; nothing without a name. Throws OutputError.
 void write_text(const std::string& path, const std::string& text);
 

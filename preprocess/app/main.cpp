@@ -5,6 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "app/pack_options.hpp"
+#include "console/named_files.hpp"
 #include "console/progress.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
@@ -199,11 +201,24 @@ PackResult pack_as_told(const PackOptions& options, Report& report) {
   }
 }
 
+void require_outputs(const PackOptions& options) {
+  const PackSettings& s = options.settings;
+  std::vector<NamedFile> inputs;
+  const auto add = [&inputs](const char* option, const std::vector<std::filesystem::path>& files) {
+    for (const std::filesystem::path& file : files) inputs.push_back({option, file});
+  };
+  add("INPUT", s.inputs);
+  add("--terrain", s.terrain);
+  add("--far-terrain", s.far_terrains);
+  add("--trees", s.trees.files);
+  const std::array<NamedOutput, 2> outputs{{{{"--report", options.report_file}}, {{"--summary", options.run.summary_file}}}};
+  require_writable(outputs, {inputs, s.output});
+}
+
 int run(const PackOptions& options) {
   // The process is the program's: as many threads as are asked for, also where there are fewer cores
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
-  require_folder_of(options.report_file);
-  require_folder_of(options.run.summary_file);
+  require_outputs(options);
   const auto start = std::chrono::steady_clock::now();
   Report report;
   std::optional<PackResult> result;

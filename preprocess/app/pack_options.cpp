@@ -10,6 +10,7 @@
 
 #include "app/option_values.hpp"
 #include "console/option_list.hpp"
+#include "console/wrong_usage.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
@@ -69,7 +70,7 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   const std::string meshes = input_format_names().meshes + " files";
   app.add_option("--origin", raw.origin, "X,Y[,Z] added to the coordinates of " + meshes)->group("Input");
   app.add_option("--up", raw.up, "Axis that points up in these; auto: as the format has it, y in GLB and z in others")
-      ->check(CLI::IsMember({"auto", "z", "y"}))
+      ->check(one_of_words({"auto", "z", "y"}))
       ->capture_default_str()
       ->group("Input");
   app.add_option(
@@ -83,7 +84,7 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--encoding", raw.encoding, "Of the names and texts of Shapefiles without .cpg, such as GBK or CP1252")
       ->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
-      ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
+      ->check(one_of_words({"best", "0", "1", "2", "3"}))
       ->capture_default_str()
       ->group("Input");
 }
@@ -124,7 +125,7 @@ void add_terrain_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Input");
   app.add_option("--surface", raw.surface,
                  "A raster that is the city. auto: walls stand where pixels are a step apart; tin: all is slopes between pixels")
-      ->check(CLI::IsMember({"auto", "tin"}))
+      ->check(one_of_words({"auto", "tin"}))
       ->capture_default_str()
       ->group("Input");
   app.add_option(
@@ -188,11 +189,11 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Grid");
   app.add_option("--assign", raw.assign,
                  "clip: cut at the cells' borders; whole: buildings go whole to the cell of their centroid")
-      ->check(CLI::IsMember({"clip", "whole"}))
+      ->check(one_of_words({"clip", "whole"}))
       ->capture_default_str()
       ->group("Grid");
   app.add_option("--far-map", raw.far_map, "horizon: without parallax, with certain bounds; box: the paper's")
-      ->check(CLI::IsMember({"horizon", "box"}))
+      ->check(one_of_words({"horizon", "box"}))
       ->capture_default_str()
       ->group("Grid");
 }
@@ -230,7 +231,7 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   add_area_option(app, raw);
   app.add_option("--memory-limit", o.memory_limit_mib,
                  "Pack within so many MiB of memory, with more on disk; end where no portion is small enough")
-      ->check(CLI::PositiveNumber)
+      ->check(between(1, 1 << 30))
       ->group("Output");
   app.add_option("--report", o.report_file,
                  "Write every problem of the input to this JSON file; as points for a map when it ends in .geojson")

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "base/nearest_word.hpp"
 #include "results/output_format.hpp"
 
 namespace farlod {
@@ -14,6 +18,15 @@ template <class Condition>
   const std::string endings = endings_where(condition);
   if (endings.empty()) return "this farlod-svf was built without such a format";
   return (endings.find(',') == std::string::npos ? "choose " : "choose one of ") + endings;
+}
+
+/// "; did you mean .tif?", where the ending of a name is nearly one that can be written.
+[[nodiscard]] inline std::string nearest_ending(const std::filesystem::path& name) {
+  std::vector<std::string> endings;
+  for (const OutputFormat& format : output_formats())
+    for (const std::string_view ending : format.endings)
+      if (!ending.empty()) endings.emplace_back(ending);
+  return did_you_mean(name.extension().string(), endings);
 }
 
 }  // namespace farlod

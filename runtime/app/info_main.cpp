@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -10,6 +11,7 @@
 #include "app/city_scenery.hpp"
 #include "app/info_options.hpp"
 #include "app/package_facts.hpp"
+#include "console/named_files.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "farlod/morphology.hpp"
@@ -100,11 +102,18 @@ void write_table_of_cells(const Package& package, const PackageFacts& facts, con
   output_format_of(options.cells_file)->write_cells(morphology_of_cells(package, run), frame, options.cells_file);
 }
 
+void require_outputs(const InfoOptions& options) {
+  const std::array<NamedFile, 1> inputs{{{"--report", options.report_file}}};
+  const std::array<NamedOutput, 4> outputs{{{{"--obj", options.obj_file}},
+                                            {{"--png", options.picture_file}},
+                                            {{"--cells", options.cells_file}},
+                                            {{"--summary", options.run.summary_file}}}};
+  require_writable(outputs, {inputs, options.package});
+}
+
 int run(const InfoOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
-  for (const std::filesystem::path& file :
-       {options.obj_file, options.picture_file, options.cells_file, std::filesystem::path(options.run.summary_file)})
-    require_folder_of(file);
+  require_outputs(options);
   const auto start = Clock::now();
   const Package package(options.package);
   const PackageFacts facts = facts_of(package, options);

@@ -14,6 +14,7 @@
 
 #include "app/word_choice.hpp"
 #include "console/option_list.hpp"
+#include "console/wrong_usage.hpp"
 #include "farlod/error.hpp"
 #include "weather/period.hpp"
 
@@ -78,7 +79,7 @@ void add_times(CLI::App& app, RawLight& raw) {
       ->check(between(1, 60))
       ->group(group_of_light);
   app.add_option("--by", raw.by, "month: irradiation of each month, too; step: shade of each --step, or row of the weather")
-      ->check(CLI::IsMember({"month", "step"}))
+      ->check(one_of_words({"month", "step"}))
       ->group(group_of_light);
 }
 

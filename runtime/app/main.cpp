@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/files_of_run.hpp"
 #include "app/light_of_package.hpp"
 #include "app/quantity_options.hpp"
 #include "app/region_of_package.hpp"
@@ -37,7 +38,6 @@
 #include "results/city/enriched_city_file.hpp"
 #include "results/picture/error_map.hpp"
 #include "results/picture/raster_preview.hpp"
-#include "results/spool_file.hpp"
 #include "results/table/sky_table_csv.hpp"
 
 namespace farlod {
@@ -187,18 +187,9 @@ void KeptWork::finish() {
   answers_.reset();
 }
 
-/// Asked before the work, which may take hours.
-void require_writable(const SvfOptions& options) {
-  std::error_code does_not_exist;
-  if (std::filesystem::equivalent(options.output, options.city_file, does_not_exist))
-    throw OutputError(options.output, "it is the file of --city; choose another name");
-  const SpoolFile probe(options.output);
-}
-
 /// The run of --city: writes the file that the package was made of again, with the values as attributes of its buildings and
 /// semantic surfaces. Throws InputError before the work where the file is another one, and what the library throws.
 WrittenRun write_enriched_city(const Package& package, const SvfOptions& options, const RunSettings& run) {
-  require_writable(options);
   const EnrichedCityFile city(
       package, options.package.string(), options.city_file,
       {quantity_name(options.evaluation.weight), BoundsColumns::no, column_descriptions_of(options.evaluation.further),
@@ -276,6 +267,7 @@ WrittenRun evaluate(SvfOptions options) {
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   add_notes_of_package(package, options, written);
   if (options.shard) kept.finish();
+  if (options.evaluation.dry_run) require_answers(written.summary, options, package.description());
   if (!options.writes()) return written;
   if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);
   if (options.verify_format != nullptr) write_verification(package, options, run.threads, written);
@@ -358,10 +350,7 @@ int run(const SvfOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   // oneTBB looks for libraries when it is first used, and would wait until that of GDAL is loaded, which a thread begins soon
   oneapi::tbb::task_arena().initialize();
-  for (const std::filesystem::path& file :
-       {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.verify_file),
-        std::filesystem::path(options.histogram_file), std::filesystem::path(options.run.summary_file)})
-    require_folder_of(file);
+  require_outputs(options);
   const auto start = Clock::now();
   const WrittenRun result = evaluate(options);
   const double total_s = seconds_since(start);

@@ -8,6 +8,7 @@
 
 #include "app/format_advice.hpp"
 #include "console/option_list.hpp"
+#include "console/wrong_usage.hpp"
 
 namespace farlod {
 namespace {
@@ -105,7 +106,7 @@ void add_picture_options(CLI::App& app, RawPictures& raw, SvfOptions& o) {
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--projection", raw.projection, "Of a picture of the sky above --at (default: equal-area)")
-      ->check(CLI::IsMember({"equidistant", "equal-area", "orthographic"}))
+      ->check(one_of_words({"equidistant", "equal-area", "orthographic"}))
       ->group("Output");
 }
 

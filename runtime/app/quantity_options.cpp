@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "app/word_choice.hpp"
+#include "base/nearest_word.hpp"
 #include "console/option_list.hpp"
+#include "console/wrong_usage.hpp"
 
 namespace farlod {
 namespace {
@@ -78,9 +80,11 @@ void add(const std::string& word, const RawQuantities& raw, Quantities& quantiti
     throw CLI::ValidationError("--quantity", word + " needs a day or a year: give --sun");
   if (word == "sunlit") return;
   if (ask_for(word, quantities)) return;
-  std::string words = "svf";
-  for (const QuantityWord& known : quantity_words()) words.append(", ").append(known.word);
-  throw CLI::ValidationError("--quantity", "\"" + word + "\" is not one of " + words);
+  if (word.empty()) throw CLI::ValidationError("--quantity", "\"" + raw.quantities + "\" has an empty name: leave a comma out");
+  std::vector<std::string> words{"svf"};
+  for (const QuantityWord& known : quantity_words()) words.emplace_back(known.word);
+  throw CLI::ValidationError("--quantity",
+                             fmt::format("\"{}\" is not one of {}{}", word, fmt::join(words, ", "), did_you_mean(word, words)));
 }
 
 void add_canopy_options(CLI::App& app, RawQuantities& raw) {
@@ -147,7 +151,7 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
       ->group("Quantities");
   app.add_option("--sky-patches", raw.sky_patches,
                  "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")
-      ->check(CLI::IsMember({tregenza_patches, reinhart_patches}))
+      ->check(one_of_words({std::to_string(tregenza_patches), std::to_string(reinhart_patches)}))
       ->group("Quantities");
   add_sun_options(app, raw);
   add_canopy_options(app, raw);

@@ -204,7 +204,8 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     o.surfaces.choice = *value_of(surface_choice_words, raw.surfaces);
   } else if (o.grid_step_m == 0.0) {
     o.own_pixels = plan_of_surface_model(Package(o.package)).has_value();
-    if (!o.own_pixels) throw CLI::RequiredError("One of --grid,--grid-like,--points,--along,--surfaces,--at");
+    if (!o.own_pixels)
+      throw CLI::ValidationError("one of --grid,--grid-like,--points,--along,--surfaces,--at is required, such as --grid 2");
   }
 }
 
@@ -254,9 +255,10 @@ void require_format_that_fits(const SvfOptions& o) {
 
 void resolve_format(const RawOptions& raw, SvfOptions& o) {
   o.format = output_format_of(o.output);
+  if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give a file");
   if (o.format == nullptr)
-    throw CLI::ValidationError(
-        "-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_endings());
+    throw CLI::ValidationError("-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " +
+                                         known_endings() + nearest_ending(o.output));
   require_format_that_fits(o);
 }
 

@@ -3,14 +3,20 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <new>
 #include <stop_token>
+#include <string>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include "app/view_options.hpp"
 #include "app/view_summary.hpp"
+#include "console/named_files.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "view/bundle_files.hpp"
@@ -79,6 +85,25 @@ std::vector<ResultLayer> read_results(const ViewOptions& options, const Package&
   return layers;
 }
 
+/// An older export is replaced, and no other folder.
+void require_folder_of_export(const std::filesystem::path& folder) {
+  std::error_code unread;
+  if (folder.empty() || !std::filesystem::exists(folder, unread)) return;
+  if (!std::filesystem::is_directory(folder, unread)) throw OutputError(folder, "it is a file; choose another name for --export");
+  if (!std::filesystem::is_empty(folder, unread) && !std::filesystem::exists(folder / "tileset.json", unread))
+    throw OutputError(folder, "it holds other files; choose a new folder for --export");
+}
+
+void require_outputs(const ViewOptions& options) {
+  require_folder_of_export(options.export_folder);
+  std::vector<NamedFile> inputs;
+  for (const std::string& result : options.results) inputs.push_back({"the result " + result, result});
+  const std::array<NamedOutput, 3> outputs{{{{"--export", options.export_folder}, true},
+                                            {{"--export", options.export_page}},
+                                            {{"--summary", options.run.summary_file}}}};
+  require_writable(outputs, {inputs, options.package});
+}
+
 /// What can be known before anything is computed.
 void require_room(const ViewOptions& options, const Package& package) {
   if (!options.export_page.empty()) require_page_is_possible(options.export_page, package.description().triangles);
@@ -86,9 +111,7 @@ void require_room(const ViewOptions& options, const Package& package) {
 
 int run(const ViewOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
-  for (const std::filesystem::path& file :
-       {options.export_folder, options.export_page, std::filesystem::path(options.run.summary_file)})
-    require_folder_of(file);
+  require_outputs(options);
   const auto start = Clock::now();
   const Package package(options.package);
   require_room(options, package);

@@ -262,7 +262,7 @@ std::optional<std::string> note_of_box_maps(const PackageDescription& city, cons
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
 
 void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city) {
-  if (summary.receivers > 0) return;
+  if (summary.estimate ? summary.estimate->receivers >= 1.0 : summary.receivers > 0) return;
   constexpr const char* nothing = "No receiver has an answer, and nothing was written";
   const Box2d& box = city.city_projected;
   const std::string place = fmt::format("The city lies from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.", box.low.x,

@@ -24,6 +24,7 @@ struct OutputFormat {
   std::string_view name;
   std::array<std::string_view, 2> endings = {};  ///< of file names, lower case, with the dot; the second may be empty
   bool is_picture = false;      ///< a drawing of the values of --grid, also for --preview, or of the sky above --at
+  bool is_folder = false;       ///< rather than a file; an older one is replaced
   bool holds_bounds = false;    ///< whether --bounds has bands or columns in it
   bool is_for_solweig = false;  ///< whose reader needs the values of add_for_solweig: they are computed without being asked for
   bool is_solweig_kit = false;  ///< shadow patches are among them, and files of the surface are beside them

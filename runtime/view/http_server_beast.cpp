@@ -191,20 +191,28 @@ std::optional<Socket> listening_at(const addrinfo& address) {
   return listens ? std::optional(std::move(socket)) : std::nullopt;
 }
 
+/// What to tell of an address at which bind() or listen() failed with this error.
+std::string why_deaf(const HttpServerSettings& settings, int error) {
+  const std::string port = std::to_string(settings.port);
+  if (error == EADDRNOTAVAIL)
+    return settings.address + " is not an address of this machine: choose another --listen, such as 127.0.0.1";
+  if (error == EACCES) return "port " + port + " is for the system alone: choose another --port, from 1024 on";
+  return "nobody can listen at port " + port + " of " + settings.address + ": is another server at it? Choose another --port";
+}
+
 Socket listening_socket(const HttpServerSettings& settings) {
   addrinfo wanted{};
   wanted.ai_flags = AI_PASSIVE;
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  // Where it fails there is no list
-  if (getaddrinfo(settings.address.c_str(), std::to_string(settings.port).c_str(), &wanted, &found) != 0) found = nullptr;
+  if (getaddrinfo(settings.address.c_str(), std::to_string(settings.port).c_str(), &wanted, &found) != 0)
+    throw OutputError(settings.address + " is not an address: give --listen one like 127.0.0.1, and the port as --port");
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, [](addrinfo* list) {
     if (list != nullptr) freeaddrinfo(list);
   });
   for (const addrinfo* address = found; address != nullptr; address = address->ai_next)
     if (auto socket = listening_at(*address)) return std::move(*socket);
-  throw OutputError(settings.address + ":" + std::to_string(settings.port),
-                    "nobody can listen there: is another server at it? Choose another --port");
+  throw OutputError(why_deaf(settings, errno));
 }
 
 int port_of(const Socket& socket) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "console/named_files.hpp"
 #include "console/run_program.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
@@ -222,6 +224,9 @@ void print_counts(const CityOptions& options, const CityCounts& counts) {
 }
 
 int run(const CityOptions& options) {
+  const std::array<NamedOutput, 3> outputs{
+      {{{"-o", options.output}}, {{"--trees", options.trees}}, {{"--summary", options.run.summary_file}}}};
+  require_writable(outputs, {});
   const CityCounts counts = write_city(options);
   write_text(options.run.summary_file, city_summary_json(options, counts));
   print_counts(options, counts);
