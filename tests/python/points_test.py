@@ -133,7 +133,7 @@ def test_verification_is_in_the_summary(village: farlod.City) -> None:
 
 def test_verification_belongs_to_what_has_a_summary(village: farlod.City) -> None:
     with pytest.raises(TypeError, match="verify"):
-        village.svf([STREET], verify=5)  # type: ignore[call-overload]
+        village.svf([[550000.0, 5500000.0]], verify=5)  # type: ignore[call-overload]
     assert village.surfaces("walls", 5.0, geometry=False, verify=5).attrs["summary"]["verify"]["count"] == 5
 
 

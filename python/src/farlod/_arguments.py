@@ -4,9 +4,11 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import operator
 import os
+import reprlib
 from collections.abc import Iterable
 from typing import Any
 
@@ -17,15 +19,32 @@ from farlod.errors import InvalidArgument
 
 Bbox = tuple[float, float, float, float]
 
+_SHORT = reprlib.Repr()
+_SHORT.maxstring = _SHORT.maxother = 60
+
+
+def shown(value: Any) -> str:
+    """``value`` as a message shows it: in one short line, and of an array its shape."""
+    shape = getattr(value, "shape", ())
+    if isinstance(shape, tuple) and shape:
+        return f"a {type(value).__name__} of the shape {shape}"
+    return " ".join(_SHORT.repr(value).split())
+
+
+def nearest(value: Any, words: Iterable[str]) -> str:
+    """``'; did you mean "roofs"?'``, where ``value`` is nearly one of the words."""
+    near = difflib.get_close_matches(value.lower(), list(words), 1, 0.7) if isinstance(value, str) else []
+    return f'; did you mean "{near[0]}"?' if near else ""
+
 
 def whole_number(name: str, value: Any, low: int, high: int) -> int:
     """``value`` as an int from ``low`` to ``high``."""
     try:
         number = operator.index(value)
     except TypeError:
-        raise InvalidArgument(f"{name} is {value!r}: give a whole number from {low:,} to {high:,}") from None
+        raise InvalidArgument(f"{name} is {shown(value)}: give a whole number from {low:,} to {high:,}") from None
     if isinstance(value, bool) or not low <= number <= high:
-        raise InvalidArgument(f"{name} is {value!r}: give a whole number from {low:,} to {high:,}")
+        raise InvalidArgument(f"{name} is {shown(value)}: give a whole number from {low:,} to {high:,}")
     return number
 
 
@@ -36,7 +55,7 @@ def number(name: str, value: Any) -> float:
     except (TypeError, ValueError, OverflowError):
         as_float = math.nan
     if not math.isfinite(as_float):
-        raise InvalidArgument(f"{name} is {value!r}: give a number")
+        raise InvalidArgument(f"{name} is {shown(value)}: give a number")
     return as_float
 
 
@@ -44,14 +63,14 @@ def word(name: str, value: Any, words: Iterable[str]) -> str:
     """``value``, which is one of some words."""
     known = tuple(words)
     if not isinstance(value, str) or value not in known:
-        raise InvalidArgument(f"{name} is {value!r}: give one of " + ", ".join(f'"{each}"' for each in known))
+        raise InvalidArgument(f"{name} is {shown(value)}: give one of " + ", ".join(f'"{each}"' for each in known) + nearest(value, known))
     return value
 
 
 def flag(name: str, value: Any) -> bool:
     """``value``, which is true or false."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InvalidArgument(f"{name} is {value!r}: give True or False")
+        raise InvalidArgument(f"{name} is {shown(value)}: give True or False")
     return bool(value)
 
 
@@ -60,9 +79,9 @@ def path(name: str, value: Any) -> str:
     try:
         text = os.fsdecode(value)
     except TypeError:
-        raise InvalidArgument(f"{name} is {value!r}: give a path") from None
+        raise InvalidArgument(f"{name} is {shown(value)}: give a path") from None
     if not text or "\0" in text:
-        raise InvalidArgument(f"{name} is {value!r}: give the path of a file or folder")
+        raise InvalidArgument(f"{name} is {shown(value)}: give the path of a file or folder")
     return text
 
 
@@ -81,8 +100,8 @@ def bbox(name: str, value: Any) -> Bbox:
     """``value`` as west, south, east, north."""
     corners = floats(name, value)
     if corners.shape != (4,) or not np.isfinite(corners).all():
-        raise InvalidArgument(f"{name} is {value!r}: give four numbers, west, south, east, north, in the CRS of the city")
+        raise InvalidArgument(f"{name} is {shown(value)}: give four numbers, west, south, east, north, in the CRS of the city")
     west, south, east, north = (float(corner) for corner in corners)
     if west >= east or south >= north:
-        raise InvalidArgument(f"{name} is {value!r}, which is empty: give west < east and south < north")
+        raise InvalidArgument(f"{name} is {shown(value)}, which is empty: give west < east and south < north")
     return west, south, east, north

@@ -81,7 +81,7 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
             Edge of a pixel in metres, 0.01 to 10,000. Pixels begin at multiples of it (default: of 1; or the pixels of the
             raster that the city is).
         bbox : (west, south, east, north), optional
-            In the CRS of the city (default: ``city_bounds``; all cells are in ``bounds``).
+            In the CRS of the city (default: ``city_bounds``; all cells are in ``bounds``). One beside the city is refused.
         mask : geopandas.GeoSeries or GeoDataFrame of polygons, or a polygon of shapely in the CRS of the city, optional
             Pixels whose centres lie outside of it have no data, and cost next to nothing.
         like : xarray.DataArray or Dataset on (y, x), optional

@@ -60,6 +60,17 @@ def _plan_like(like: Any, crs: Any) -> Any:
     return _runtime.RasterPlan((float(x[0]) - step / 2, float(y[0]) + step / 2), step, x.size, y.size)
 
 
+def _require_of_city(box: _arguments.Bbox, city: Mapping[str, Any]) -> None:
+    """Refuses a raster beside the city, all of which would be without data. Pixels near the grid have some."""
+    near_m = 1000.0
+    west, south, east, north = city["bounds_m"]
+    if box[0] > east + near_m or box[1] > north + near_m or box[2] < west - near_m or box[3] < south - near_m:
+        raise InvalidArgument(
+            f"bbox is {_arguments.shown(box)}, where nothing of the city lies: it reaches from {west:.0f}, {south:.0f} to "
+            f"{east:.0f}, {north:.0f} in {city['crs_name']}"
+        )
+
+
 def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
     """``RasterPlan`` of the library. Raises InvalidArgument."""
     if like is not None:
@@ -69,6 +80,8 @@ def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
             raise InvalidArgument("like and step both say which pixels: give one of them")
         return _plan_like(like, crs)
     box = None if bbox is None else _arguments.bbox("bbox", bbox)
+    if box is not None:
+        _require_of_city(box, package.description())
     own = _runtime.plan_of_surface_model(package, box) if step is None else None
     return own or _runtime.plan_raster(package, 1.0 if step is None else _arguments.number("step", step), box)
 
@@ -214,10 +227,11 @@ def lazy(city: Any, pixels: Any, evaluation: Evaluation, mask: Any, chunks: Any,
     # What a block would refuse is refused now
     evaluation.placing(), evaluation.settings(), evaluation.caller()
     shape = (pixels.rows, pixels.columns)
+    edge = 2048 if isinstance(chunks, str) and chunks == "auto" else chunks
     try:
-        sizes = array.core.normalize_chunks(2048 if chunks == "auto" else chunks, shape, dtype=np.float32)
+        sizes = array.core.normalize_chunks(edge, shape, dtype=np.float32)
     except (TypeError, ValueError) as error:
-        raise InvalidArgument(f"chunks is {chunks!r}: give the edge of a block in pixels, as dask takes it ({error})") from error
+        raise InvalidArgument(f"chunks is {_arguments.shown(chunks)}: give the edge of a block in pixels, as dask takes it") from error
     frame = (pixels.north_west_m, pixels.step_m, pixels.columns, pixels.rows)
     stack = array.map_blocks(
         _block,

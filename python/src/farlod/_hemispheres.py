@@ -14,6 +14,7 @@ from farlod import _arguments, _fisheye
 from farlod._answers import Hemisphere
 from farlod._modules import runtime as _runtime
 from farlod._open_city import OpenCity
+from farlod._receivers import require_near
 from farlod._settings import Above, Evaluation, Options
 from farlod.errors import InvalidArgument
 
@@ -52,6 +53,7 @@ class HemispheresOfCity(OpenCity):
         place = _arguments.floats("point", point)
         if place.shape not in ((2,), (3,)):
             raise InvalidArgument(f"point has the shape {place.shape}: give x and y, or x, y and z")
+        require_near(place[:1], place[1:2], self.bounds, self._description["crs_name"])
         evaluation = Evaluation(height=height, above=above, max_error=max_error, options=options)
         z = float(place[2]) if place.size == 3 and not math.isnan(place[2]) else None
         seen = _runtime.look_up(

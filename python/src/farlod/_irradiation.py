@@ -12,6 +12,7 @@ from farlod import _grids
 from farlod._light import Light, light_over
 from farlod._open_city import OpenCity
 from farlod._settings import Above, Evaluation, Options, Quantity, SkyModel
+from farlod.errors import InvalidArgument
 
 if TYPE_CHECKING:
     import xarray
@@ -115,6 +116,8 @@ class IrradiationOfCity(OpenCity):
         (12, 6)
         """
         receivers = self._receivers(points, normals)
+        if light is None:
+            raise InvalidArgument("light is None: give a farlod.Light, as City.light() makes it")
         evaluation = Evaluation(
             height=height, above=above, max_error=max_error, quantities=quantities, light=light, options=options
         )

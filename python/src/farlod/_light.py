@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import datetime
 import os
 from typing import Any, get_args
 
@@ -25,7 +26,7 @@ def _seconds_of(begin: Any) -> npt.NDArray[np.float64]:
     try:
         times = np.asarray(begin, "datetime64[s]")
     except (TypeError, ValueError):
-        raise InvalidArgument(f"begin is {begin!r}: give times as datetime64") from None
+        raise InvalidArgument(f"begin is {_arguments.shown(begin)}: give times as datetime64") from None
     if np.isnat(times).any():
         raise InvalidArgument("begin has a NaT: give a time for each interval")
     return times.astype(np.float64)
@@ -131,7 +132,7 @@ class Light:
         self._sky_model = _arguments.word("sky_model", sky_model, get_args(SkyModel))
         self._albedo = tuple(_arguments.floats("albedo", albedo).ravel().tolist())
         if len(self._albedo) != 2:
-            raise InvalidArgument(f"albedo is {albedo!r}: give two numbers, those of the ground and of façades")
+            raise InvalidArgument(f"albedo is {_arguments.shown(albedo)}: give two numbers, those of the ground and of façades")
         self.hours = float(intervals["hours"].sum())
         self.global_horizontal = _runtime.global_horizontal_kwh_m2(*self._columns, *self._suns)
 
@@ -142,6 +143,12 @@ class Light:
 
     def __repr__(self) -> str:
         return f"<farlod.Light of {self.hours:g} hours, {self.global_horizontal:.4g} kWh/m² on a level plane: {self.source}>"
+
+
+def _period_text(period: Any) -> str:
+    if getattr(period, "shape", ()) or not isinstance(period, (str, int, np.datetime64, datetime.date)):
+        raise InvalidArgument(f'period is {_arguments.shown(period)}: give a text like "2026-06-21" or "2026-06/2026-08"')
+    return str(period)
 
 
 def light_over(
@@ -158,7 +165,7 @@ def light_over(
     """The light of weather, or of a clear sky, over a longitude and latitude, as City.light() describes it."""
     found = _runtime.light_of_period(
         "" if weather is None else os.path.abspath(_arguments.path("weather", weather)),
-        "" if period is None else str(period),
+        "" if period is None else _period_text(period),
         _arguments.whole_number("step", step, 1, 60),
         _arguments.number("linke_turbidity", linke_turbidity),
         *place,

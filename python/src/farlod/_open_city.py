@@ -11,7 +11,7 @@ from typing import Any, Self
 
 from farlod import _arguments
 from farlod._modules import runtime as _runtime
-from farlod._receivers import Receivers, receivers_of
+from farlod._receivers import Receivers, receivers_of, require_near
 from farlod._settings import Evaluation
 from farlod.errors import InvalidArgument
 
@@ -109,7 +109,10 @@ class OpenCity:
 
     def _receivers(self, points: Any, normals: Any) -> Receivers:
         self._open_package()
-        return receivers_of(points, normals, self.crs_wkt, float(self._description["convergence_deg"]))
+        receivers = receivers_of(points, normals, self.crs_wkt, float(self._description["convergence_deg"]))
+        if receivers.index is None:
+            require_near(receivers.x, receivers.y, self.bounds, self._description["crs_name"])
+        return receivers
 
     def _answers(self, receivers: Receivers, evaluation: Evaluation) -> Mapping[str, Any]:
         columns = _runtime.PointColumns(receivers.x, receivers.y, receivers.z, receivers.azimuth, receivers.tilt)

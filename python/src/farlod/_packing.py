@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 
 from farlod import _arguments, _modules
 from farlod._city import City
+from farlod._crs import crs_text
 from farlod._models import is_path, saved_model
+from farlod._program_words import in_python
 from farlod._receivers import is_geo
 from farlod._settings import Progress, caller_settings
-from farlod.errors import InvalidArgument
+from farlod.errors import Error, InvalidArgument
 
 if TYPE_CHECKING:
     import pandas
@@ -183,7 +185,7 @@ def _set_grid(settings: Any, cell: Any, neighborhood: Any, max_error: Any, align
 def _ground_names(names: str | Sequence[str]) -> list[str]:
     listed = [names] if isinstance(names, str) else list(names)
     if not all(isinstance(name, str) and name for name in listed):
-        raise InvalidArgument(f"ground_names is {names!r}: give words")
+        raise InvalidArgument(f"ground_names is {_arguments.shown(names)}: give words")
     return listed
 
 
@@ -196,23 +198,6 @@ def _set_area(settings: Any, area: Any, folder: str) -> None:
         settings.set_area_file(_arguments.path("area", area))
     else:
         settings.set_area(_arguments.bbox("area", area))
-
-
-def _crs_text(name: str, crs: Any) -> str:
-    """"EPSG:n", from anything that pyproj takes."""
-    if crs is None:
-        return ""
-    if isinstance(crs, str):
-        return _arguments.path(name, crs)
-    import pyproj
-
-    try:
-        epsg = pyproj.CRS.from_user_input(crs).to_epsg()
-    except pyproj.exceptions.CRSError as error:
-        raise InvalidArgument(f"{name} is {crs!r}, which is no CRS: give one like \"EPSG:25832\" ({error})") from None
-    if epsg is None:
-        raise InvalidArgument(f"{name} has no EPSG code: give one that has, like \"EPSG:25832\"")
-    return f"EPSG:{epsg}"
 
 
 def _warn_of(problems: list[Problem]) -> None:
@@ -360,10 +345,12 @@ def pack(
     if obj_origin is not None:
         origin = _arguments.floats("obj_origin", obj_origin)
         if origin.shape != (3,):
-            raise InvalidArgument(f"obj_origin is {obj_origin!r}: give x, y and z")
+            raise InvalidArgument(f"obj_origin is {_arguments.shown(obj_origin)}: give x, y and z")
         settings.set_obj_origin(origin.tolist())
     settings.ground_names = _ground_names(ground_names)
-    settings.crs, settings.out_crs = _crs_text("crs", crs), _crs_text("out_crs", out_crs)
+    settings.crs, settings.out_crs = crs_text("crs", crs), crs_text("out_crs", out_crs)
+    if heights is not None and not isinstance(heights, (str, Heights)):
+        raise InvalidArgument(f"heights is {_arguments.shown(heights)}: give a farlod.Heights, or the name of an attribute")
     settings.footprints = _footprints(Heights(height=heights) if isinstance(heights, str) else heights or Heights(), module)
     for name, value in (("layer", layer), ("encoding", encoding)):
         if value is not None:
@@ -389,6 +376,9 @@ def pack(
         _set_area(settings, area, folder)
         try:
             facts = module.pack(settings, rows, caller)
+        except Error as error:
+            error.args = (in_python(str(error)), *error.args[1:])
+            raise
         finally:
             found = [Problem(**row) for row in rows]
             if report:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from farlod import _arguments
 from farlod.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 def extent(grid: xarray.Dataset) -> tuple[float, float, float, float]:
     """West, east, south and north of the outer edges of a raster."""
-    if not {"x", "y"} <= set(grid.coords) or min(grid.sizes["x"], grid.sizes["y"]) < 1:
+    if not {"x", "y"} <= set(getattr(grid, "coords", ())) or min(grid.sizes["x"], grid.sizes["y"]) < 1:
         raise InvalidArgument("grid has no coordinates x and y: give what svf_grid() returns")
     x, y = grid.x.values, np.sort(grid.y.values)
     step = float(x[1] - x[0]) if x.size > 1 else float(y[1] - y[0]) if y.size > 1 else 1.0
@@ -38,9 +39,11 @@ def draw_map(
     import matplotlib.pyplot
     from matplotlib.collections import LineCollection
 
-    names = list(grid.data_vars)
-    if not names or (variable is not None and variable not in names):
-        raise InvalidArgument(f"variable is {variable!r}: give one of " + ", ".join(map(repr, names)))
+    names = list(getattr(grid, "data_vars", ()))
+    if not names:
+        raise InvalidArgument(f"grid is {_arguments.shown(grid)}: give what svf_grid() returns, with coordinates x and y")
+    if variable is not None and variable not in names:
+        raise InvalidArgument(f"variable is {_arguments.shown(variable)}: give one of " + ", ".join(map(repr, names)) + _arguments.nearest(variable, map(str, names)))
     shown = names[0] if variable is None else variable
     axes = matplotlib.pyplot.subplots()[1] if ax is None else ax
     values = grid[shown].sortby("y", ascending=False)

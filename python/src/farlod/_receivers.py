@@ -85,6 +85,22 @@ def _facing(normals: Any, count: int, convergence_deg: float) -> tuple[Floats, F
     return azimuth, np.degrees(np.arctan2(level, up))
 
 
+def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str) -> None:
+    """Refuses points without a CRS of their own that all lie far from a city: all sky, where somebody has mixed up coordinates."""
+    farthest_m, farthest_on_maps_m = 100_000.0, 1e8
+    west, south, east, north = bounds
+    distance = np.hypot(x - (west + east) / 2.0, y - (south + north) / 2.0)
+    # What lies nowhere on Earth is told by the library, with its index
+    if x.size == 0 or not (np.abs(x) + np.abs(y) < farthest_on_maps_m).all() or distance.min() <= farthest_m:
+        return
+    are_degrees = bool((np.abs(x) <= 360.0).all() and (np.abs(y) <= 180.0).all())
+    raise InvalidArgument(
+        f"points begin with ({x[0]:.10g}, {y[0]:.10g}), and all lie more than 100 km from the city, which is at "
+        f"({(west + east) / 2.0:.0f}, {(south + north) / 2.0:.0f}) in {crs}: give "
+        + ('degrees as a GeoSeries with crs="EPSG:4326"' if are_degrees else "easting and northing in this CRS, or a GeoSeries with its CRS")
+    )
+
+
 def receivers_of(points: Any, normals: Any, crs_wkt: str, convergence_deg: float) -> Receivers:
     """``points`` and ``normals`` as City.svf() describes them. Raises InvalidArgument."""
     geo = is_geo(points)

@@ -104,7 +104,7 @@ def listener_of(progress: Any) -> ProgressListener | None:
     if progress is True:
         return _print_line
     if not callable(progress):
-        raise InvalidArgument(f"progress is {progress!r}: give True, or a function that takes (stage, done, all)")
+        raise InvalidArgument(f"progress is {_arguments.shown(progress)}: give True, or a function that takes (stage, done, all)")
     listener: ProgressListener = progress
     return listener
 
@@ -153,7 +153,10 @@ class Evaluation:
         further.set_sky_patches(self.sky_patches)
         self._set_canopy(further)
         if self.sun is not None:
-            further.set_sun(*(_arguments.floats("sun", values).ravel() for values in self.sun))
+            columns = [_arguments.floats("sun", values).ravel() for values in self.sun]
+            if not any(column.size for column in columns):
+                raise InvalidArgument("the sun's azimuths, elevations and hours are empty: give at least one position")
+            further.set_sun(*columns)
         if _arguments.flag("trees", self.sunlit_total):
             further.ask("sunlit_total")
         if self.light is not None:

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the library advises in words of the program, in those of Python."""
+
+from __future__ import annotations
+
+import re
+
+#: Arguments of farlod.pack() that are not called as the option of farlod-pack is.
+_ARGUMENTS = {
+    "origin": "obj_origin",
+    "height-field": "heights.height",
+    "base-field": "heights.base",
+    "roof-field": "heights.roof",
+    "storeys-field": "heights.storeys",
+    "floor-height": "heights.storey_height",
+    "default-height": "heights.default",
+    "unknown-height": "heights.unknown",
+    "tree-height-field": "trees.height",
+    "crown-field": "trees.crown",
+    "trunk-field": "trees.trunk",
+    "trees-layer": "trees.layer",
+    "canopy": "trees.canopy",
+    "trunk": "trees.canopy_trunk",
+    "canopy-absolute": "trees.absolute",
+    "trunk-ratio": "trees.trunk_ratio",
+}
+_SAME_NAMES = (
+    "align area assign cell crs encoding far-map far-terrain ground-names layer lod max-error memory-limit neighborhood out-crs "
+    "surface terrain terrain-offset threads trees up"
+).split()
+
+
+def in_python(message: str) -> str:
+    """``message`` with the arguments of farlod.pack() in place of the options of farlod-pack."""
+    names = {**{name: name.replace("-", "_") for name in _SAME_NAMES}, **_ARGUMENTS}
+
+    def argument(match: re.Match[str]) -> str:
+        name = names.get(match["option"])
+        if name is None:
+            return match[0]
+        return f'{name}="{match["epsg"]}"' if match["epsg"] else name
+
+    text = message.replace("--force", "overwrite=True").replace(" for -o", " for path")
+    return re.sub(r"(?<![\w-])--(?P<option>[a-z]+(?:-[a-z]+)*)(?: (?P<epsg>EPSG:\w+))?", argument, text)

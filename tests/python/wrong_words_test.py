@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""What wrong calls are told: one short line with the nearest word, in words of Python, and never an answer of nothing."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+from typing import Any
+
+import geopandas
+import numpy as np
+import pytest
+import shapely.geometry
+from conftest import SAMPLES
+
+import farlod
+
+HERE = [[550000.0, 5500000.0]]
+LARGE = np.zeros((10_000, 3))
+LONGEST = 260  #: the words of --quantity, and a sentence
+
+#: Of each function: arguments that are arrays, or long lists, where a number or a word is wanted.
+LARGE_ARGUMENTS = [
+    ("svf", (HERE,), dict(height=LARGE)),
+    ("svf", (HERE,), dict(above=LARGE)),
+    ("svf", (HERE,), dict(engine=LARGE)),
+    ("svf", (HERE,), dict(rays=LARGE)),
+    ("svf", (HERE,), dict(bounds=LARGE)),
+    ("svf", (HERE,), dict(max_error=LARGE)),
+    ("svf", (HERE,), dict(progress=LARGE)),
+    ("svf", (HERE,), dict(height=list(range(10_000)))),
+    ("svf", (HERE,), dict(above="a" * 10_000)),
+    ("horizon", (HERE, LARGE), {}),
+    ("sky_patches", (HERE, LARGE), {}),
+    ("light", (), dict(period=LARGE)),
+    ("light", (LARGE,), {}),
+    ("fisheye", (HERE[0], 99, LARGE), {}),
+    ("svf_grid", (LARGE,), {}),
+    ("svf_grid", (20.0, LARGE), {}),
+    ("svf_grid", (20.0,), dict(chunks=LARGE)),
+    ("surfaces", (LARGE,), {}),
+    ("plot", (LARGE,), {}),
+    ("check", (), dict(threads=LARGE)),
+]
+
+
+@pytest.mark.parametrize(("function", "arguments", "keywords"), LARGE_ARGUMENTS, ids=itertools.count())
+def test_arguments_are_shown_in_short(village: farlod.City, function: str, arguments: Any, keywords: Any) -> None:
+    with pytest.raises(farlod.InvalidArgument) as raised:
+        getattr(village, function)(*arguments, **keywords)
+    message = str(raised.value)
+    assert "\n" not in message
+    assert len(message) <= LONGEST
+
+
+#: What is misspelt, and the word that is meant.
+MISSPELT = [
+    ("surfaces", ("roof",), {}, 'did you mean "roofs"?'),
+    ("svf", (HERE,), dict(above="grond"), 'did you mean "ground"?'),
+    ("svf", (HERE,), dict(engine="horizn"), 'did you mean "horizon"?'),
+    ("svf", (HERE,), dict(metric="Cosine"), 'did you mean "cosine"?'),
+    ("sky_patches", (HERE, "tregenz"), {}, 'did you mean "tregenza"?'),
+    ("evaluate", (HERE,), dict(quantities=["hiden"]), 'did you mean "hidden"?'),
+]
+
+
+@pytest.mark.parametrize(("function", "arguments", "keywords", "text"), MISSPELT, ids=itertools.count())
+def test_nearest_word(village: farlod.City, function: str, arguments: Any, keywords: Any, text: str) -> None:
+    with pytest.raises(farlod.InvalidArgument) as raised:
+        getattr(village, function)(*arguments, **keywords)
+    assert str(raised.value).endswith(text)
+
+
+#: Where nothing of the city is, or nothing is asked.
+OF_NOTHING = [
+    ("svf", ([[9.69, 49.65]],), {}, ("100 km from the city", 'degrees as a GeoSeries with crs="EPSG:4326"')),
+    ("svf", ([[49.65, 9.69]],), {}, ("100 km from the city",)),
+    ("svf", ([[5500000.0, 550000.0]],), {}, ("(5500000, 550000)", "easting and northing")),
+    ("look_up", ([9.69, 49.65],), {}, ("100 km from the city",)),
+    ("svf_grid", (20.0, (9.0, 49.0, 10.0, 50.0)), {}, ("nothing of the city lies", "WGS 84 / UTM zone 32N")),
+    ("svf_grid", (20.0, (650000.0, 5500000.0, 650100.0, 5500100.0)), {}, ("nothing of the city lies",)),
+    ("ground", (20.0, (9.0, 49.0, 10.0, 50.0)), {}, ("nothing of the city lies",)),
+    ("sunlit", (HERE, [], [], []), {}, ("at least one position",)),
+    ("irradiation", (HERE, None), {}, ("farlod.Light",)),
+]
+
+
+@pytest.mark.parametrize(("function", "arguments", "keywords", "said"), OF_NOTHING, ids=itertools.count())
+def test_no_answer_of_nothing(village: farlod.City, function: str, arguments: Any, keywords: Any, said: Any) -> None:
+    with pytest.raises(farlod.InvalidArgument) as raised:
+        getattr(village, function)(*arguments, **keywords)
+    for text in said:
+        assert text in str(raised.value)
+
+
+def test_points_with_a_crs_may_be_anywhere(village: farlod.City) -> None:
+    london = geopandas.GeoSeries([shapely.geometry.Point(-0.1, 51.5)], crs="EPSG:4326")
+    assert village.svf(london).to_list() == [1.0]
+
+
+def test_second_run_names_the_argument(tmp_path: Path) -> None:
+    farlod.pack(SAMPLES / "village.gml", tmp_path / "v.farlod", cell=50.0, report=False).close()
+    with pytest.raises(farlod.OutputError) as raised:
+        farlod.pack(SAMPLES / "village.gml", tmp_path / "v.farlod", cell=50.0, report=False)
+    assert "overwrite=True" in str(raised.value)
+    assert "--" not in str(raised.value)
+
+
+PACKINGS = [
+    ("village.obj", {}, 'give crs="EPSG:n"'),
+    ("village.gml", dict(out_crs="EPSG:4326"), 'out_crs="EPSG:4326" (WGS 84)'),
+    ("village.geojson", dict(heights="hight"), "as heights.height"),
+    ("village.geojson", dict(heights=dict(default=3.0)), "give a farlod.Heights"),
+    ("village.geojson", dict(layer="roads"), "as layer"),
+]
+
+
+@pytest.mark.parametrize(("city", "keywords", "text"), PACKINGS, ids=itertools.count())
+def test_packing_is_told_in_words_of_python(tmp_path: Path, city: str, keywords: Any, text: str) -> None:
+    with pytest.raises(farlod.Error) as raised:
+        farlod.pack(SAMPLES / city, tmp_path / "p.farlod", report=False, **keywords)
+    assert text in str(raised.value)
+    assert "--" not in str(raised.value)
+
+
+#: What is no package, and what the message says of it.
+def test_what_is_no_package(tmp_path: Path) -> None:
+    (tmp_path / "cities").mkdir()
+    (tmp_path / "cities" / "town.gml").write_text("<CityModel/>")
+    (tmp_path / "empty").mkdir()
+    farlod.pack(SAMPLES / "village.gml", tmp_path / "v.farlod", cell=50.0, report=False).close()
+    for name, text in (
+        ("cities", "town.gml. farlod-pack makes a package of a city"),
+        ("empty", "is an empty folder"),
+        ("cities/town.gml", "is a file, and a package is a folder"),
+        ("v", "did you mean"),
+        ("v.farlod/blocks", "is a part of the package"),
+    ):
+        with pytest.raises(farlod.PackageUnusable) as raised:
+            farlod.open(tmp_path / name)
+        assert text in str(raised.value)
