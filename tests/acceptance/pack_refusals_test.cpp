@@ -122,8 +122,6 @@ INSTANTIATE_TEST_SUITE_P(
                     wrong_packing("AlignBeyondATurn", "--align 1e9", {"--align", "full turn"}),
                     wrong_usage("OriginOfOneNumber", "box.obj -o a.farlod --origin 1", {"--origin: give X,Y or X,Y,Z"}),
                     wrong_packing("UnknownOption", "--frobnicate", {"--frobnicate"}),
-                    wrong_packing("UnknownLod", "--lod 7", {"--lod: 7", "best,0,1,2,3"}),
-                    wrong_packing("NoSuchConfig", "--config lost.toml", {"lost.toml"}),
                     wrong_packing("UnknownOptionInConfig", "--config typo.toml", {"--config", "cel"})),
     name_of_refused);
 
