@@ -326,7 +326,7 @@ TEST_F(Solweig, WhatDoesNotFitIsRefused) {
   refused("-o svfs.zip --grid 5 --sky solid", exit_usage, {"--quantity", "--sky solid"});
   refused("-o svfs.zip --at 1,2", exit_usage, {"-o", "--grid"});
   refused("-o o.asc --grid-like dsm.asc --bbox 0,0,1,1", exit_usage, {"--bbox", "--grid-like"});
-  refused("-o o.asc --grid-like lost.asc", exit_unusable_input, {"lost.asc", "see that it exists"});
+  refused("-o o.asc --grid-like lost.asc", exit_unusable_input, {"lost.asc", "does not exist"});
   refused("-o o.asc --grid-like town.geojson", exit_unusable_input, {"town.geojson", "raster"});
 }
 
