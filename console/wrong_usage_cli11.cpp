@@ -101,7 +101,7 @@ std::string missing_text(const CLI::App& app, const std::string& what) {
   const CLI::Option* const option = option_named(app, name);
   if (option == nullptr) return what;
   const std::vector<std::string> rest = app.remaining();
-  const std::string text = what + ": " + what_to_give(*option);
+  std::string text = what + ": " + what_to_give(*option);
   if (rest.empty() || option->get_snames().empty()) return text;
   return fmt::format("{}; is it {}? Write -{} {}", text, rest.front(), option->get_snames().front(), rest.front());
 }
@@ -190,7 +190,7 @@ std::string wrong_usage_text(const CLI::App& app, const CLI::ParseError& error) 
   const std::vector<std::string> rest = app.remaining();
   const auto misspelt = std::ranges::find_if(rest, is_like_option);
   if (misspelt != rest.end()) return unknown_option(app, *misspelt);
-  const std::string what = error.what();
+  std::string what = error.what();
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unknown_argument(rest.empty() ? what : rest.front());
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     const auto two = two_of_a_choice(app);
