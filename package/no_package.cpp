@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 bool is_package(const fs::path& folder) {
   std::error_code unread;
-  return fs::is_regular_file(folder / manifest_file, unread);
+  return fs::is_regular_file(folder / package::manifest_file, unread);
 }
 
 /// What a folder holds, in a fixed order; of a large one only some.
@@ -67,12 +67,12 @@ PackageUnusable of_folder(const fs::path& name) {
   if (entries.empty()) return PackageUnusable(name.string() + " is an empty folder, and not a package: farlod-pack makes one.");
   std::error_code unread;
   if (fs::exists(name / "blocks", unread))
-    return PackageUnusable(name.string() + " is not a finished package: it has no " + manifest_file +
+    return PackageUnusable(name.string() + " is not a finished package: it has no " + package::manifest_file +
                            ". Was farlod-pack interrupted? Pack the city again.");
   if (const auto inner = std::ranges::find_if(entries, is_package); inner != entries.end())
     return PackageUnusable(name.string() + " is not a package, but a folder with some: give one of them, such as " +
                            inner->string() + ".");
-  return PackageUnusable(name.string() + " is not a package: it has no " + manifest_file + ", but " +
+  return PackageUnusable(name.string() + " is not a package: it has no " + package::manifest_file + ", but " +
                          entries.front().filename().string() + ". farlod-pack makes a package of a city: farlod-pack " +
                          name.string() + " -o NAME.farlod");
 }
