@@ -149,12 +149,16 @@ TEST_P(SkyEvaluatorOfKind, WhereAllIsNearTheEnginesAgree) {
   }
 }
 
-TEST_P(SkyEvaluatorOfKind, OutsideOfTheGridAnswersAreExact) {
+/// By rays of the whole city, or by its horizons where `automatic` and `horizon` draw them.
+TEST_P(SkyEvaluatorOfKind, OutsideOfTheGridAnswersAreThoseOfTheWholeCity) {
   const PackedScene town(random_boxes(60), grid_of(around_the_middle, 1), GetParam());
   for (const Cell outside : {Cell{4, 0}, {0, -5}, {-4, 4}})
     for (const Engine engine : engines_of(GetParam())) {
       const std::vector<float> svf = town.svf(spread_over(outside), {engine});
-      EXPECT_EQ(svf, town.svf(spread_over(outside), {Engine::exact}));
+      const std::vector<float> exact = town.svf(spread_over(outside), {Engine::exact});
+      const bool has_horizons = GetParam() == FarMapKind::horizon && (engine == Engine::automatic || engine == Engine::horizon);
+      const double of_rays = has_horizons ? 0.008 : 0.0;
+      for (std::size_t n = 0; n < svf.size(); ++n) EXPECT_NEAR(svf[n], exact[n], of_rays) << n;
       EXPECT_LT(*std::min_element(svf.begin(), svf.end()), 1.0F);
     }
   if (GetParam() == FarMapKind::box) {
