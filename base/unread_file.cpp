@@ -14,18 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The names in a folder, in a fixed order. Of a folder with more than anybody looks through, only some.
-std::vector<std::string> names_in_folder(const fs::path& folder) {
-  constexpr std::size_t most_names = 10'000;
-  std::vector<std::string> names;
-  std::error_code error;
-  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
-  for (; !error && entry != fs::directory_iterator() && names.size() < most_names; entry.increment(error))
-    names.push_back(entry->path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 /// Whether a user has put commas between the names of several files.
 bool is_list_of_files(std::string_view text) {
   if (text.find(',') == text.npos) return false;
@@ -56,6 +44,17 @@ std::string why_unread(const fs::path& file) {
   if (fs::is_regular_file(file, error) && fs::file_size(file, error) == 0)
     return file.string() + " is empty: 0 bytes. Was the download cut short?";
   return file.string() + " cannot be read: see that you may read it.";
+}
+
+std::vector<std::string> names_in_folder(const fs::path& folder) {
+  constexpr std::size_t most_names = 10'000;
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
+  for (; !error && entry != fs::directory_iterator() && names.size() < most_names; entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace farlod

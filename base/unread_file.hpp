@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace farlod {
 
@@ -11,5 +12,9 @@ namespace farlod {
 /// exist, and perhaps another one with nearly that name does; it is an address of the web, a folder, empty; or it may not be
 /// read.
 [[nodiscard]] std::string why_unread(const std::filesystem::path& file);
+
+/// The names in a folder, in a fixed order; none where it cannot be read. Of a folder with more than anybody looks through, only
+/// some.
+[[nodiscard]] std::vector<std::string> names_in_folder(const std::filesystem::path& folder);
 
 }  // namespace farlod

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/nearest_word.hpp"
+#include "base/unread_file.hpp"
 #include "package/layout.hpp"
 
 namespace farlod {
@@ -20,18 +21,6 @@ namespace fs = std::filesystem;
 bool is_package(const fs::path& folder) {
   std::error_code unread;
   return fs::is_regular_file(folder / package::manifest_file, unread);
-}
-
-/// What a folder holds, in a fixed order; of a large one only some.
-std::vector<fs::path> entries_of(const fs::path& folder) {
-  constexpr std::size_t most_entries = 10'000;
-  std::vector<fs::path> entries;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator() && entries.size() < most_entries; entry.increment(error))
-    entries.push_back(entry->path());
-  std::sort(entries.begin(), entries.end());
-  return entries;
 }
 
 /// The package that a path leads into.
@@ -47,10 +36,10 @@ std::optional<fs::path> package_around(const fs::path& name) {
 }
 
 PackageUnusable missing(const fs::path& name) {
-  const fs::path folder = name.has_parent_path() ? name.parent_path() : fs::path(".");
+  const fs::path folder = name.parent_path();
   std::vector<fs::path> packages;
-  for (const fs::path& entry : entries_of(folder))
-    if (is_package(entry)) packages.push_back(name.parent_path() / entry.filename());
+  for (const std::string& entry : names_in_folder(folder))
+    if (is_package(folder / entry)) packages.push_back(folder / entry);
   // Without the ending, which all have and which makes any two names alike
   std::vector<std::string> stems;
   for (const fs::path& package : packages) stems.push_back(package.stem().string());
@@ -63,18 +52,18 @@ PackageUnusable missing(const fs::path& name) {
 
 /// A folder that is there, and no package.
 PackageUnusable of_folder(const fs::path& name) {
-  const std::vector<fs::path> entries = entries_of(name);
+  const std::vector<std::string> entries = names_in_folder(name);
   if (entries.empty()) return PackageUnusable(name.string() + " is an empty folder, and not a package: farlod-pack makes one.");
   std::error_code unread;
   if (fs::exists(name / "blocks", unread))
     return PackageUnusable(name.string() + " is not a finished package: it has no " + package::manifest_file +
                            ". Was farlod-pack interrupted? Pack the city again.");
-  if (const auto inner = std::ranges::find_if(entries, is_package); inner != entries.end())
+  if (const auto inner = std::ranges::find_if(entries, [&](const std::string& entry) { return is_package(name / entry); });
+      inner != entries.end())
     return PackageUnusable(name.string() + " is not a package, but a folder with some: give one of them, such as " +
-                           inner->string() + ".");
-  return PackageUnusable(name.string() + " is not a package: it has no " + package::manifest_file + ", but " +
-                         entries.front().filename().string() + ". farlod-pack makes a package of a city: farlod-pack " +
-                         name.string() + " -o NAME.farlod");
+                           (name / *inner).string() + ".");
+  return PackageUnusable(name.string() + " is not a package: it has no " + package::manifest_file + ", but " + entries.front() +
+                         ". farlod-pack makes a package of a city: farlod-pack " + name.string() + " -o NAME.farlod");
 }
 
 }  // namespace

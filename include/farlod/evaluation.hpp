@@ -19,8 +19,8 @@ namespace farlod {
 
 /// What answers a receiver (docs/stages/evaluate.md). Far maps of the kind `box` have no horizons: with them automatic, horizon
 /// and rays are all the same, rays that are traced nearby and looked up in the map. Receivers outside of the grid have no far
-/// map: automatic and horizon draw all edges of a city of up to a million triangles, and otherwise, as the other engines do, rays
-/// are traced against the whole city. Those in cells whose far map was not made
+/// map: automatic and horizon draw all edges of a city of up to a million triangles there, unless it is a raster or has far
+/// terrain; else rays are traced against the whole city, whatever the engine. Those in cells whose far map was not made
 /// (PackSettings::area) are traced so, too, by the engines automatic and rays.
 enum class Engine {
   automatic,  ///< horizons

@@ -18,20 +18,17 @@
 
 namespace farlod {
 
-namespace {
-
-/// Each cell outside of the grid collects all edges of the city: some hundredths of a second. Pixels have no edges, and the
-/// ground beyond the grid is in far maps and in the scene of the whole city alone.
-bool are_all_edges_drawn(const package::Manifest& manifest) {
+FarMapOfCell far_map_outside_of_grid(const PackageReader& package) {
+  // Each cell collects all edges of the city there: some hundredths of a second. Pixels have no edges, and the ground beyond the
+  // grid is in far maps and in the scene of the whole city alone
   constexpr std::uint64_t most_triangles = 1'000'000;
-  return manifest.triangles <= most_triangles && !manifest.far_map.is_box() && !manifest.heights() && !manifest.far_terrain;
+  const package::Manifest& m = package.manifest();
+  const bool is_drawn = m.triangles <= most_triangles && !m.far_map.is_box() && !m.heights() && !m.far_terrain;
+  return is_drawn ? FarMapOfCell::all_is_near : FarMapOfCell::outside_of_grid;
 }
 
-}  // namespace
-
 FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
-  if (!package.grid().cells.contains(cell))
-    return are_all_edges_drawn(package.manifest()) ? FarMapOfCell::all_is_near : FarMapOfCell::outside_of_grid;
+  if (!package.grid().cells.contains(cell)) return far_map_outside_of_grid(package);
   if (!package.has_far_map(cell))
     return package::is_natural_relief(package.manifest()) ? FarMapOfCell::needless : FarMapOfCell::missing;
   return package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon;

@@ -31,6 +31,8 @@ enum class FarMapOfCell {
 };
 
 [[nodiscard]] FarMapOfCell far_map_of(const PackageReader& package, Cell cell);
+/// That of every cell outside of the grid: all_is_near or outside_of_grid.
+[[nodiscard]] FarMapOfCell far_map_outside_of_grid(const PackageReader& package);
 
 /// How the receivers of a cell are answered. A direction is free when
 enum class EvaluationMethod {

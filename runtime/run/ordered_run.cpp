@@ -79,7 +79,6 @@ struct Tally {
   SvfStatistics statistics, totals;
   SvfDistribution distribution;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
-  FarMapOfCell beyond_grid = FarMapOfCell::outside_of_grid;  ///< or all_is_near
   RayCounts rays;
   double store_s = 0.0;
 
@@ -91,12 +90,8 @@ struct Tally {
     outside_of_region += cell.receivers.outside_of_region;
     rays.by_rays += cell.values.counts.by_rays;
     rays.retraced_rays += cell.values.counts.retraced_rays;
-    const FarMapOfCell far_map = far_map_of(package, cell.receivers.cell);
-    if (far_map == FarMapOfCell::outside_of_grid || far_map == FarMapOfCell::all_is_near) {
-      outside_of_grid += counts.back();
-      beyond_grid = far_map;
-    }
-    if (far_map == FarMapOfCell::missing) without_far_map += counts.back();
+    if (!package.grid().cells.contains(cell.receivers.cell)) outside_of_grid += counts.back();
+    if (far_map_of(package, cell.receivers.cell) == FarMapOfCell::missing) without_far_map += counts.back();
   }
 };
 
@@ -110,9 +105,9 @@ EvaluationSeconds seconds_of(double wall_s, const EvaluationStatistics& evaluati
 
 /// The error of what answered: of far maps of the kind `box`, and where far maps are missing, that is rays, whatever the engine;
 /// beyond the grid, too, unless all is near.
-double sampling_error_of_run(const SkySettings& sky, const package::Manifest& manifest, const Tally& tally) {
-  double error = sampling_error_of(sky, manifest.far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
-  if (tally.outside_of_grid > 0) error = std::max(error, sampling_error_of(sky, tally.beyond_grid));
+double sampling_error_of_run(const SkySettings& sky, const PackageReader& package, const Tally& tally) {
+  double error = sampling_error_of(sky, package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
+  if (tally.outside_of_grid > 0) error = std::max(error, sampling_error_of(sky, far_map_outside_of_grid(package)));
   if (tally.without_far_map > 0) error = std::max(error, sampling_error_of(sky, FarMapOfCell::missing));
   return error;
 }
@@ -196,7 +191,7 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
   summary.accuracy = settings.accuracy;
-  summary.accuracy.sampling_error = sampling_error_of_run(settings.sky, package.manifest(), tally);
+  summary.accuracy.sampling_error = sampling_error_of_run(settings.sky, package, tally);
   summary.outside_of_region = tally.outside_of_region;
   summary.outside_of_grid = tally.outside_of_grid;
   summary.without_far_map = tally.without_far_map;

@@ -48,9 +48,7 @@ void require_usable(const Box2d& part, double step_m) {
 /// Pixels beyond the grid have answers where horizons can be drawn there: rays against the whole city would take a hundred times
 /// as long for bounds and light. It depends on the package alone, so that all engines answer the same pixels.
 BeyondGrid beyond_grid_of(const PackageReader& package) {
-  const CellRange& cells = package.grid().cells;
-  const FarMapOfCell outside = far_map_of(package, {cells.i_begin - 1, cells.j_begin - 1});
-  return outside == FarMapOfCell::all_is_near ? BeyondGrid::is_answered : BeyondGrid::is_left_out;
+  return far_map_outside_of_grid(package) == FarMapOfCell::all_is_near ? BeyondGrid::is_answered : BeyondGrid::is_left_out;
 }
 
 TileRange tiles_over(const PixelRange& pixels) {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "farlod/point.hpp"
@@ -185,6 +187,47 @@ TEST(LightTable, OfManyHoursIsTheSumOfEach) {
   const std::vector<float> sums = on_plane(LightTable(light, at), at, normal);
   EXPECT_NEAR(sums[direct], direct_sum, 1e-5);
   EXPECT_NEAR(sums[diffuse], diffuse_sum, 1e-5);
+}
+
+/// Steps of five minutes, each with a sun of its own, from so many seconds after midnight.
+std::vector<LightInterval> steps_from(int begin_s, std::initializer_list<double> elevations_deg) {
+  std::vector<LightInterval> steps;
+  for (const double elevation_deg : elevations_deg) {
+    LightInterval step = hour(100.0 + elevation_deg, elevation_deg, 400.0 + 10.0 * elevation_deg, 90.0 + elevation_deg);
+    step.hours = step.sun.front().hours = 1.0 / 12.0;
+    step.begin = std::chrono::local_seconds(std::chrono::seconds(begin_s + 300 * static_cast<int>(steps.size())));
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+TEST(LightTable, StepsOfAQuarterOfAnHourShareTheirSky) {
+  const std::vector<double> at = turns();
+  const std::vector<LightInterval> steps = steps_from(36'000, {20.0, 21.0, 22.0});
+  LightInterval quarter = steps[1];
+  quarter.sun = {steps[0].sun[0], steps[1].sun[0], steps[2].sun[0]};
+  quarter.hours = 0.25;
+  const LightTable of_steps(Light{steps}, at), of_quarter(Light{{quarter}}, at);
+  for (const double azimuth_deg : {10.0, 120.0, 200.0}) {
+    const Point3d normal = tilted(70.0, azimuth_deg);
+    EXPECT_NEAR(on_plane(of_steps, at, normal)[diffuse], on_plane(of_quarter, at, normal)[diffuse], 1e-7) << azimuth_deg;
+  }
+  double in_all = 0.0;
+  for (const LightInterval& step : steps) in_all += 1e-3 * step.diffuse_w_m2 * step.hours;
+  EXPECT_NEAR(of_steps.on_level()[diffuse], in_all, 1e-7);
+}
+
+/// A gap between two steps, and the end of a quarter.
+TEST(LightTable, OtherStepsHaveSkiesOfTheirOwn) {
+  const std::vector<double> at = turns();
+  const Point3d normal = tilted(70.0, 120.0);
+  std::vector<LightInterval> steps = steps_from(36'000, {20.0, 21.0, 22.0, 60.0});
+  const std::vector<LightInterval> later = steps_from(40'000, {10.0});
+  steps.insert(steps.end(), later.begin(), later.end());
+  const auto on_tilted = [&](std::vector<LightInterval> some) {
+    return on_plane(LightTable(Light{std::move(some)}, at), at, normal)[diffuse];
+  };
+  EXPECT_NEAR(on_tilted(steps), on_tilted({steps[0], steps[1], steps[2]}) + on_tilted({steps[3]}) + on_tilted(later), 1e-7);
 }
 
 TEST(LightTable, AWallInTheOpenHasTheVerticalSkyComponentOfTheCode) {
