@@ -46,18 +46,8 @@ enum class EvaluationMethod {
 };
 inline constexpr std::size_t evaluation_method_count = 6;
 
-/// The only place that decides which method answers a cell:
-///
-///   engine      far map `horizon`       far map `box`        missing            needless                outside of the grid
-///   automatic   horizons                near_scene_and_box   whole_city         pixels_and_whole_city   whole_city
-///   horizon     horizons                near_scene_and_box   horizons           pixels_and_whole_city   whole_city
-///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city              whole_city
-///   exact       whole_city              whole_city           whole_city         whole_city              whole_city
-///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   near_scene_alone        whole_city
-///
-/// Where all is near, `automatic` and `horizon` draw horizons outside of the grid, too.
-///
-/// Rays march over the pixels of natural relief before horizons are drawn, too.
+/// The only place that decides which method answers a cell: the table of docs/stages/evaluate.md. Rays march over the pixels of
+/// natural relief before horizons are drawn, too.
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 class SkyMethod;

@@ -38,16 +38,18 @@ std::string name_of(EvaluationMethod method) {
   return "";
 }
 
-using Row = std::array<std::string, 6>;
+using Row = std::array<std::string, 7>;
 
 /// Engine and methods of each row of the table in docs/stages/evaluate.md.
 std::vector<Row> documented_rows() {
-  static const std::regex row("^\\| `(\\w+)`[^|]*\\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\|$");
+  static const std::regex row(
+      "^\\| `(\\w+)`[^|]*\\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\|$");
   std::ifstream file(FARLOD_SOURCE_DIR "/docs/stages/evaluate.md");
   std::vector<Row> rows;
   for (std::string line; std::getline(file, line);) {
     std::smatch cells;
-    if (std::regex_match(line, cells, row)) rows.push_back({cells[1], cells[2], cells[3], cells[4], cells[5], cells[6]});
+    if (std::regex_match(line, cells, row))
+      rows.push_back({cells[1], cells[2], cells[3], cells[4], cells[5], cells[6], cells[7]});
   }
   return rows;
 }
@@ -61,7 +63,8 @@ TEST(EvaluationMethod, FollowsTheDocumentedTable) {
                                      {"near_only", Engine::near_only}})
     rows.push_back({name, name_of(method_of(engine, FarMapOfCell::horizon)), name_of(method_of(engine, FarMapOfCell::box)),
                     name_of(method_of(engine, FarMapOfCell::missing)), name_of(method_of(engine, FarMapOfCell::needless)),
-                    name_of(method_of(engine, FarMapOfCell::outside_of_grid))});
+                    name_of(method_of(engine, FarMapOfCell::outside_of_grid)),
+                    name_of(method_of(engine, FarMapOfCell::all_is_near))});
   EXPECT_EQ(rows, documented_rows());
 }
 
@@ -80,6 +83,8 @@ TEST(EvaluationMethod, SaysWhoseSamplingErrorCounts) {
     for (const Engine engine : {Engine::automatic, Engine::horizon, Engine::rays, Engine::exact, Engine::near_only})
       for (const FarMapOfCell far_map : {FarMapOfCell::box, FarMapOfCell::outside_of_grid})
         EXPECT_EQ(error(engine, far_map), of_rays);
+    for (const Engine engine : {Engine::automatic, Engine::horizon})
+      EXPECT_EQ(error(engine, FarMapOfCell::all_is_near), of_azimuths);
     for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact})
       EXPECT_EQ(error(engine, FarMapOfCell::missing), of_rays);
     EXPECT_EQ(error(Engine::automatic, FarMapOfCell::needless), larger);

@@ -227,7 +227,7 @@ TEST(LightTable, OtherStepsHaveSkiesOfTheirOwn) {
   const auto on_tilted = [&](std::vector<LightInterval> some) {
     return on_plane(LightTable(Light{std::move(some)}, at), at, normal)[diffuse];
   };
-  EXPECT_NEAR(on_tilted(steps), on_tilted({steps[0], steps[1], steps[2]}) + on_tilted({steps[3]}) + on_tilted(later), 1e-7);
+  EXPECT_NEAR(on_tilted(steps), on_tilted({steps[0], steps[1], steps[2]}) + on_tilted({steps[3]}) + on_tilted(later), 1e-6);
 }
 
 TEST(LightTable, AWallInTheOpenHasTheVerticalSkyComponentOfTheCode) {
