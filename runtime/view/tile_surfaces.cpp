@@ -70,38 +70,68 @@ double longest_square_of(const Corners& c) {
   return std::max({square_of_edge(c, 0), square_of_edge(c, 1), square_of_edge(c, 2)});
 }
 
-/// Divides triangles at the middle of their longest edge until no edge is too long, and keeps those whose middle is in a square.
+/// A side of a square in the grid frame: a coordinate of a place, from the side inwards.
+struct SideOfSquare {
+  double Point2d::*across;
+  double place_m, inwards;
+
+  [[nodiscard]] double inside_m(Point2d p_grid) const { return inwards * (p_grid.*across - place_m); }
+};
+
+/// The part of a convex polygon on the inner side (Sutherland and Hodgman 1974).
+std::vector<Point3d> part_inside(const ViewFrame& frame, const SideOfSquare& side, const std::vector<Point3d>& polygon_local) {
+  std::vector<Point3d> part;
+  for (std::size_t k = 0; k < polygon_local.size(); ++k) {
+    const Point3d &a = polygon_local[k], &b = polygon_local[(k + 1) % polygon_local.size()];
+    const double from_m = side.inside_m(frame.grid_from_local(horizontal(a))),
+                 to_m = side.inside_m(frame.grid_from_local(horizontal(b)));
+    if (from_m >= 0.0) part.push_back(a);
+    if ((from_m < 0.0) != (to_m < 0.0)) part.push_back(a + from_m / (from_m - to_m) * (b - a));
+  }
+  return part;
+}
+
+/// Cuts triangles at the border of a square, and divides what is in it at the middle of the longest edge until no edge is too
+/// long. Tiles of all levels end at the same lines, so that no part of a triangle is in none of two neighbors.
 class FacetsOfSquare {
  public:
   FacetsOfSquare(const ViewFrame& frame, const TileSquare& square, double longest_edge_m)
-      : frame_(frame), square_(square), longest_square_(longest_edge_m * longest_edge_m) {}
+      : frame_(frame),
+        square_(square),
+        sides_{{{&Point2d::x, square.low.x, 1.0},
+                {&Point2d::x, square.low.x + square.edge_m, -1.0},
+                {&Point2d::y, square.low.y, 1.0},
+                {&Point2d::y, square.low.y + square.edge_m, -1.0}}},
+        longest_square_(longest_edge_m * longest_edge_m) {}
 
   void add(const Corners& corners, const Point3d& normal, std::uint32_t feature) {
-    if (!meets_square(corners)) return;
+    std::vector<Point3d> part(corners.begin(), corners.end());
+    for (const SideOfSquare& side : sides_) part = part_inside(frame_, side, part);
+    for (std::size_t k = 2; k < part.size(); ++k) divide({part[0], part[k - 1], part[k]}, normal, feature);
+  }
+  [[nodiscard]] std::vector<TileFacet> facets() && { return std::move(facets_); }
+
+ private:
+  void divide(const Corners& corners, const Point3d& normal, std::uint32_t feature) {
     std::size_t longest = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (square_of_edge(corners, k) > square_of_edge(corners, longest)) longest = k;
     if (square_of_edge(corners, longest) > longest_square_) {
       const Point3d a = corners[longest], b = corners[(longest + 1) % 3], c = corners[(longest + 2) % 3], m = 0.5 * (a + b);
-      add({a, m, c}, normal, feature);
-      add({m, b, c}, normal, feature);
+      divide({a, m, c}, normal, feature);
+      divide({m, b, c}, normal, feature);
       return;
     }
+    // A wall on the border belongs to one of the tiles beside it
     const Point3d middle = (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
-    if (square_.contains(frame_.grid_from_local(horizontal(middle)))) facets_.push_back({corners, middle, normal, feature});
-  }
-  [[nodiscard]] std::vector<TileFacet> facets() && { return std::move(facets_); }
-
- private:
-  [[nodiscard]] bool meets_square(const Corners& corners) const {
-    Box2d box;
-    for (const Point3d& corner : corners) box.add(frame_.grid_from_local(horizontal(corner)));
-    const Point2d high = square_.low + Point2d{square_.edge_m, square_.edge_m};
-    return box.low.x < high.x && box.high.x >= square_.low.x && box.low.y < high.y && box.high.y >= square_.low.y;
+    const bool has_area = cross(corners[1] - corners[0], corners[2] - corners[0]) != Point3d{};
+    if (has_area && square_.contains(frame_.grid_from_local(horizontal(middle))))
+      facets_.push_back({corners, middle, normal, feature});
   }
 
   const ViewFrame& frame_;
   TileSquare square_;
+  std::array<SideOfSquare, 4> sides_;
   double longest_square_;
   std::vector<TileFacet> facets_;
 };

@@ -19,7 +19,6 @@
 #include "results/value_text.hpp"
 #include "view/canopy_columns.hpp"
 #include "view/tile_glb.hpp"
-#include "view/tile_skirts.hpp"
 #include "view/tile_surfaces.hpp"
 
 namespace farlod {
@@ -273,12 +272,9 @@ const std::string& ViewCity::crowns() const {
 }
 
 std::string ViewCity::tile(const TileAddress& address) const {
-  TileSurfaces surfaces = surfaces_of(package_, frame_, tree_, address);
+  const TileSurfaces surfaces = surfaces_of(package_, frame_, tree_, address);
   const bool is_large = address.level < tree_.level_of_cells();
-  const std::size_t azimuths = is_large ? azimuths_of_larger_tiles : azimuths_of_cells;
-  std::vector<float> values = values_of(package_, frame_, surfaces, azimuths);
-  add_skirts(frame_, tree_, address, surfaces, values);
-  return glb_of(surfaces, values);
+  return glb_of(surfaces, values_of(package_, frame_, surfaces, is_large ? azimuths_of_larger_tiles : azimuths_of_cells));
 }
 
 void ViewCity::make_first_tiles(const std::stop_token& stop) const {

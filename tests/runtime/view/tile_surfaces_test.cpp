@@ -110,6 +110,21 @@ TEST_F(TilesOfVillage, FacetsLieInTheirTileAndLookOutwards) {
   });
 }
 
+/// Otherwise parts of facets would be in none of two neighbors that are divided otherwise, and the background be seen there.
+TEST_F(TilesOfVillage, TilesEndAtTheirBorders) {
+  constexpr double rounding_m = 1e-6;
+  const TileTree tree(frame_);
+  for (std::uint32_t level = tree.level_of_cells(); level < tree.levels(); ++level)
+    for_each_tile(level, [&](const TileAddress& tile) {
+      const TileSquare square = tree.square_of(tile);
+      for (const TileFacet& facet : surfaces(tile).facets)
+        for (const Point3d& corner : facet.corners_local) {
+          const Point2d p = frame_.grid_from_local(horizontal(corner)) - square.low;
+          EXPECT_TRUE(std::min(p.x, p.y) >= -rounding_m && std::max(p.x, p.y) <= square.edge_m + rounding_m) << level;
+        }
+    });
+}
+
 TEST_F(TilesOfVillage, EachFeatureHasAFacet) {
   for (std::uint32_t level = 0; level < TileTree(frame_).levels(); ++level)
     for_each_tile(level, [&](const TileAddress& tile) {
