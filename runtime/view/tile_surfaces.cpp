@@ -78,6 +78,9 @@ struct SideOfSquare {
   [[nodiscard]] double inside_m(Point2d p_grid) const { return inwards * (p_grid.*across - place_m); }
 };
 
+/// Vertices of packages are rounded to less: what is cut at the border of a cell already is not cut again.
+constexpr double on_side_m = 1e-4;
+
 /// The part of a convex polygon on the inner side (Sutherland and Hodgman 1974).
 std::vector<Point3d> part_inside(const ViewFrame& frame, const SideOfSquare& side, const std::vector<Point3d>& polygon_local) {
   std::vector<Point3d> part;
@@ -85,8 +88,9 @@ std::vector<Point3d> part_inside(const ViewFrame& frame, const SideOfSquare& sid
     const Point3d &a = polygon_local[k], &b = polygon_local[(k + 1) % polygon_local.size()];
     const double from_m = side.inside_m(frame.grid_from_local(horizontal(a))),
                  to_m = side.inside_m(frame.grid_from_local(horizontal(b)));
-    if (from_m >= 0.0) part.push_back(a);
-    if ((from_m < 0.0) != (to_m < 0.0)) part.push_back(a + from_m / (from_m - to_m) * (b - a));
+    const bool is_from_inside = from_m >= -on_side_m, is_to_inside = to_m >= -on_side_m;
+    if (is_from_inside) part.push_back(a);
+    if (is_from_inside != is_to_inside) part.push_back(a + std::clamp(from_m / (from_m - to_m), 0.0, 1.0) * (b - a));
   }
   return part;
 }

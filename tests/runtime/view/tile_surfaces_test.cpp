@@ -112,7 +112,7 @@ TEST_F(TilesOfVillage, FacetsLieInTheirTileAndLookOutwards) {
 
 /// Otherwise parts of facets would be in none of two neighbors that are divided otherwise, and the background be seen there.
 TEST_F(TilesOfVillage, TilesEndAtTheirBorders) {
-  constexpr double rounding_m = 1e-6;
+  constexpr double rounding_m = 1.1e-4;  // of vertices
   const TileTree tree(frame_);
   for (std::uint32_t level = tree.level_of_cells(); level < tree.levels(); ++level)
     for_each_tile(level, [&](const TileAddress& tile) {
