@@ -44,7 +44,8 @@ struct AdjacentSlopes {
 };
 
 /// A facet that leans out by no more than this over its height, an error of surveys, counts as vertical: no lower border tells
-/// that sky may be seen below its top. Its receivers therefore stand ahead of its top.
+/// that sky may be seen below its top. Its receivers therefore stand ahead of its top; other eyes right below it count as in a
+/// recess.
 inline constexpr double max_lean_m = 0.05;
 
 /// A grounded border may lie over a recess, such as a window set back. It hides all below it for all eyes but those in the

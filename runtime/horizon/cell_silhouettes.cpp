@@ -28,11 +28,14 @@ void add(const HorizonEdge& edge, CellSilhouettes& silhouettes, OverhangEdges& o
   }
 }
 
-/// A border over a recess has a facet that is not a wall, and lies above the eye and at most so far from it.
+/// A border over a recess has a facet that is not a wall, and lies above the eye and at most so far from it. That of an overhang
+/// may be over eyes right below a wall that leans out and counts as vertical.
 bool may_be_over_recess(const HorizonEdge& e, const ReceiverBox& eyes) {
   constexpr std::int8_t wall = AdjacentSlopes::straight_down;
   constexpr auto reach_m = static_cast<float>(1.1 * most_recess_depth_m);
-  if (e.role != EdgeRole::grounded || (e.adjacent.left == wall && e.adjacent.right == wall)) return false;
+  const bool has_left_wall = e.adjacent.left == wall, has_right_wall = e.adjacent.right == wall;
+  if (e.role == EdgeRole::underside || (has_left_wall && has_right_wall)) return false;
+  if (e.role == EdgeRole::overhang && !has_left_wall && !has_right_wall) return false;
   const auto is_near = [](float a, float b, float low, float high) {
     return std::min(a, b) <= high + reach_m && std::max(a, b) >= low - reach_m;
   };

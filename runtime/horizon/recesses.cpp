@@ -32,9 +32,9 @@ struct EdgeBeside {
     const double rise_m = ((eye.z - a.z) * run_m - ahead_m * along.z) / norm(along);
     is_above_facet = rise_m > aside_m * AdjacentSlopes::slope(facet) - facing_slack_m;
   }
-  /// Whether the edge may lie over a recess with the eye in it, at right angles to the edge.
-  [[nodiscard]] bool may_be_over() const {
-    return !is_above_facet && aside_m <= most_recess_depth_m + give_m && ahead_m >= -give_m && ahead_m <= run_m + give_m;
+  /// Whether the edge may lie over a recess of at most this depth with the eye in it, at right angles to the edge.
+  [[nodiscard]] bool may_be_over(double depth_m) const {
+    return !is_above_facet && aside_m <= depth_m + give_m && ahead_m >= -give_m && ahead_m <= run_m + give_m;
   }
   /// Whether it is one of the borders around that recess.
   [[nodiscard]] bool may_be_own() const {
@@ -59,9 +59,11 @@ Point3d eye_of(const ReceiverPacket& r, std::size_t lane) { return {r.x[lane], r
 Overhead Recesses::overhead_of(const ReceiverPacket& r, std::uint32_t below) const {
   Overhead overhead{below, 0};
   if (below == 0) return overhead;
-  for (const HorizonEdge& edge : silhouettes_.over_recesses)
+  for (const HorizonEdge& edge : silhouettes_.over_recesses) {
+    const double depth_m = edge.role == EdgeRole::grounded ? most_recess_depth_m : max_lean_m;
     for (std::size_t l = 0; l < r.count; ++l)
-      if (has_bit(below, l) && EdgeBeside(edge, eye_of(r, l)).may_be_over()) overhead.in_recess |= 1U << l;
+      if (has_bit(below, l) && EdgeBeside(edge, eye_of(r, l)).may_be_over(depth_m)) overhead.in_recess |= 1U << l;
+  }
   return overhead;
 }
 

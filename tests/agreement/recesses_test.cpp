@@ -104,5 +104,18 @@ INSTANTIATE_TEST_SUITE_P(
                     Eye{"OnTheWall", {11, 9.99, 2}, {0, -1, 0}, false}, Eye{"OnTheRoof", {15, 12, 6.01}, {0, 0, 1}, false}),
     [](const auto& param) { return param.param.name; });
 
+TEST(Recesses, EyesRightBelowAWallThatLeansOutSeeThePlaceBeforeIt) {
+  // It stands on a pillar, and its south wall leans by so much that counts as upright
+  std::vector<tiles::test::Face> hanging = tiles::test::box(8, 3, 22, 8, 3, 9);
+  for (tiles::test::Face& face : hanging)
+    for (Point3d& p : face)
+      if (p.y == 3.0 && p.z == 3.0) p.y += 0.8 * max_lean_m;
+  for (const tiles::test::Face& face : tiles::test::box(14, 5, 16, 7, 0, 3)) hanging.push_back(face);
+  const HouseWithRecess house(hanging);
+  const Eye eye{"", {15, 3.03, 3.2}, {0, -1, 0}, true};
+  for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact})
+    EXPECT_NEAR(house.svf(eye, engine).estimate, 0.5, 0.005);
+}
+
 }  // namespace
 }  // namespace farlod
