@@ -172,7 +172,8 @@ void trace_profile(const AzimuthSampling& azimuths, const RayScene& scene, const
                    const std::stop_token& stop) {
   const RayOrigins origins = origins_of(receivers, scene.solid.scene_from_cell_m);
   const auto wanted = receivers.lanes_in_use();
-  for (SkyProfile::Rows* rows : {&profile.gap_from, &profile.gap_to, &profile.gap_share, &profile.sky, &profile.solid_sky})
+  for (SkyProfile::Rows* rows :
+       {&profile.gap_from, &profile.gap_to, &profile.gap_share, &profile.sky, &profile.solid_sky, &profile.light_sky})
     rows->clear();
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     throw_if_cancelled(stop);

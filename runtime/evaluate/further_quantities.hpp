@@ -87,9 +87,7 @@ class FurtherQuantities {
   [[nodiscard]] bool empty() const { return size_ == 0; }
   /// With horizons, the first azimuth is true north; without, they are those of runs that ask for nothing further.
   [[nodiscard]] const AzimuthSampling& azimuths() const { return azimuths_; }
-  [[nodiscard]] ProfileRows profile_rows() const {
-    return quantities_.svf_solid ? ProfileRows::sky_and_solid_sky : ProfileRows::sky;
-  }
+  [[nodiscard]] ProfileRows profile_rows() const { return {.solid_sky = quantities_.svf_solid, .light_sky = needs_light()}; }
   /// Whether anything is made of profiles: canopies, shadow patches and views alone may be traced without them.
   [[nodiscard]] bool needs_profiles() const {
     return size_ > crowns_.count + shadow_patches_.count + views_.count + views_below_.count;

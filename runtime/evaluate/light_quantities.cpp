@@ -60,7 +60,7 @@ class LightOfColumn {
     for (std::size_t l = 0; l < packet_.receivers.count; ++l, sums += light_.layers()) {
       face(l);
       read(profile.sky_from[azimuth][l], zenith_slope, here_.data());
-      if (!profile.sky.empty()) {
+      if (!profile.light_sky.empty()) {
         packet_.rows.seen_share[azimuth][l] = share_above_horizon(l);
         move_jump(l);
       }
@@ -77,7 +77,7 @@ class LightOfColumn {
     lost += l * light_.layers();
     face(l);
     // Where the horizon jumps, they take so much of what is left above it
-    const float seen = profile.sky.empty() ? 1.0F : packet_.rows.seen_share[azimuth_][l];
+    const float seen = profile.light_sky.empty() ? 1.0F : packet_.rows.seen_share[azimuth_][l];
     add_between(std::max(dimmed.low, profile.sky_from[azimuth_][l]), dimmed.high, dimmed.lost * seen, lost);
     if (!has_gap(l)) return;
     add_between(std::max(dimmed.low, profile.gap_from[azimuth_][l]), std::min(dimmed.high, profile.gap_to[azimuth_][l]),
@@ -113,14 +113,14 @@ class LightOfColumn {
   /// The sky that the profile knows, as a share of that above the slope of the horizon.
   [[nodiscard]] float share_above_horizon(std::size_t lane) const {
     const float above = here_[static_cast<std::size_t>(LightLayer::uniform)];
-    return above > 0.0F ? packet_.profile.sky[azimuth_][lane] * of_turn_ / above : 0.0F;
+    return above > 0.0F ? packet_.profile.light_sky[azimuth_][lane] * of_turn_ / above : 0.0F;
   }
   /// Where the horizon jumps between two azimuths, the sky of the profile knows at which place: so much of this azimuth's part of
   /// the turn has the horizon of its neighbor.
   void move_jump(std::size_t lane) {
     constexpr float least = 2e-3F;
     constexpr auto uniform = static_cast<std::size_t>(LightLayer::uniform);
-    const float missing = packet_.profile.sky[azimuth_][lane] * of_turn_ - here_[uniform];
+    const float missing = packet_.profile.light_sky[azimuth_][lane] * of_turn_ - here_[uniform];
     if (std::abs(missing) < least * of_turn_) return;
     const SkyProfile::Rows& slopes = packet_.profile.sky_from;
     const float before = slopes[azimuth_ == 0 ? azimuths_.size() - 1 : azimuth_ - 1][lane],

@@ -184,9 +184,14 @@ void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPa
   profile_->gap_to.clear();
   profile_->gap_share.clear();
   profile_->sky.resize(azimuths_.size());
-  if (profile_rows_ == ProfileRows::sky) return;
-  profile_->solid_sky.resize(azimuths_.size());
-  (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, profile_->solid_sky);
+  if (profile_rows_.solid_sky) {
+    profile_->solid_sky.resize(azimuths_.size());
+    (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, profile_->solid_sky);
+  }
+  if (!profile_rows_.light_sky) return;
+  profile_->light_sky.resize(azimuths_.size());
+  (void)jumps_.sky_above(horizon, SkyWeight::cosine, receivers, silhouettes_.upper_ends, profile_->light_sky,
+                         HorizonJumps::least_jump_of_light);
 }
 
 Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead) {

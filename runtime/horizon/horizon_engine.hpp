@@ -115,7 +115,7 @@ class HorizonEngine {
   float allowed_error_ = 1.0F;
   std::optional<SkyProfile> profile_;  ///< if somebody wants to know
   OnProfile on_profile_;
-  ProfileRows profile_rows_ = ProfileRows::sky;
+  ProfileRows profile_rows_;
   ResidualHorizon residual_;
   PacketGroup group_;
   Recesses recesses_;

@@ -24,11 +24,11 @@ SeenPlace seen(const Point3f& p, const Point3f& receiver, float cosine, float si
 }  // namespace
 
 HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                               const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths) {
+                                               const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths, float least) {
   if (azimuths_.size() < least_azimuths) return {horizon.sky_above(weight, receivers, of_azimuths), {}};
   SkyAbove above{horizon.sky_above(weight, receivers, sky_), {}};
   std::copy_n(sky_.begin(), of_azimuths.size(), of_azimuths.begin());
-  for (const SkyJump& jump : horizon.find_jumps(sky_, least_jump, jumps_))
+  for (const SkyJump& jump : horizon.find_jumps(sky_, least, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       const Correction correction = correction_of(jump.azimuth, lane, horizon, receivers, ends);

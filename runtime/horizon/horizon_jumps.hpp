@@ -22,6 +22,8 @@ class HorizonJumps {
   static constexpr std::size_t least_azimuths = 32;
   /// Jumps of less sky than this stay where they are: there are many, and together they are worth little.
   static constexpr float least_jump = 0.1F;
+  /// Those that are worth more than others, such as where the sun is, are placed down to this.
+  static constexpr float least_jump_of_light = 0.01F;
 
   /// The sampling must be even, and outlive it.
   explicit HorizonJumps(const AzimuthSampling& azimuths) : azimuths_(azimuths), sky_(azimuths.size()), jumps_(azimuths.size()) {}
@@ -37,7 +39,7 @@ class HorizonJumps {
   }
   /// The same, and the sky of each azimuth by itself, which the corrections of its jumps are a part of; unless there are no rows.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                   const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths);
+                                   const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths, float least = least_jump);
 
  private:
   /// What one jump of one receiver adds to the sum over the azimuths, and to which of them.

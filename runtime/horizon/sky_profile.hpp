@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
@@ -38,12 +37,14 @@ struct SkyProfile {
   /// mean over the azimuths is the view factor of that sky, by the cosine and by solid angle. Empty where `sky_from` is all that
   /// is known.
   Rows sky, solid_sky;
+  /// `sky`, with smaller jumps where they are, too: what an azimuth has is worth more where the sun is. Their mean is not the
+  /// view factor that is answered, which lets these be.
+  Rows light_sky;
 };
 
-/// What a profile is to hold.
-enum class ProfileRows : std::uint8_t {
-  sky,                ///< the sky by the cosine
-  sky_and_solid_sky,  ///< the sky by solid angle, too
+/// What a profile is to hold beside the sky by the cosine.
+struct ProfileRows {
+  bool solid_sky = false, light_sky = false;
 };
 
 }  // namespace farlod

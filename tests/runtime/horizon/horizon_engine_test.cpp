@@ -63,7 +63,7 @@ class KnownTown {
   }
   /// What the receivers see at the azimuths, at least and at most.
   std::vector<SvfInterval> drawn(std::span<const Receiver> receivers) {
-    engine_.tell_profiles(ProfileRows::sky, [](std::size_t, SkyProfile&) {});
+    engine_.tell_profiles({}, [](std::size_t, SkyProfile&) {});
     std::vector<SvfInterval> intervals;
     for (std::size_t first = 0; first < receivers.size(); first += ReceiverPacket::lanes) {
       ReceiverPacket packet;
@@ -105,6 +105,34 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
         EXPECT_GE(intervals[r.index].estimate, sky_above(&SlopeRange::high) - rounding) << r.index;
       }
     }
+}
+
+TEST(HorizonEngine, TheSkyOfLightHasSmallJumpsWhereTheyAre) {
+  // Low and far: the sky above them differs by less than the jumps that the view factor places
+  TownByHand town;
+  for (const double x : {-60.0, -35.0, 30.0, 52.0})
+    for (const double y : {-55.0, -32.0, 28.0, 50.0}) town.add_box({x, y}, {7.0, 9.0}, 9.0);
+  KnownTown known(town, SkyWeight::cosine, 0.0F, JumpPlaces::at_edge_ends);
+  SkyProfile profile(known.ring());
+  known.engine().tell_profiles({.light_sky = true}, [&](std::size_t, SkyProfile& told) { profile = told; });
+  const AzimuthSampling fine = AzimuthSampling::even(64 * azimuths, {});
+  double error_of_sky = 0.0, error_of_light = 0.0;
+  for (float x = -8.0F; x < 24.0F; x += 3.0F) {
+    const Receiver receiver{0, {x, 0.7F * x, 1.5F}};
+    std::vector<SvfInterval> interval(1);
+    known.evaluate({&receiver, 1}, interval);
+    const double truth = expected_sky(SkyWeight::cosine, up, fine, [&](std::size_t k) {
+      return expected_horizon(town.grounded(), receiver.p_cell, {fine.cosine()[k], fine.sine()[k]}).high;
+    });
+    const auto mean = [](const SkyProfile::Rows& rows) {
+      double sum = 0.0;
+      for (const PacketHorizon::Row& row : rows) sum += static_cast<double>(row[0]);
+      return sum / static_cast<double>(rows.size());
+    };
+    error_of_sky += std::abs(mean(profile.sky) - truth);
+    error_of_light += std::abs(mean(profile.light_sky) - truth);
+  }
+  EXPECT_LT(error_of_light, 0.75 * error_of_sky);
 }
 
 TEST(HorizonEngine, AReceiverSeesTheSameWhoeverStandsBesideIt) {
