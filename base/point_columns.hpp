@@ -15,7 +15,7 @@
 /// The names of the columns of a table of points, in lower case. Both programs read such tables.
 namespace farlod::point_columns {
 
-inline constexpr std::array<std::string_view, 3> id_names{"id", "name", "fid"};
+inline constexpr std::array<std::string_view, 4> id_names{"id", "station", "name", "fid"};
 inline constexpr std::array<std::string_view, 8> x_names{"x", "x_m", "easting", "lon", "longitude", "long", "lng", "lon_dd"};
 inline constexpr std::array<std::string_view, 6> y_names{"y", "y_m", "northing", "lat", "latitude", "lat_dd"};
 inline constexpr std::array<std::string_view, 4> z_names{"z", "z_m", "height_m", "elevation"};

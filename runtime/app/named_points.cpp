@@ -103,29 +103,44 @@ std::optional<NamedPoints> near_as_degrees(NamedPoints named, const PackageDescr
   return near_count(named, package) == named.ids.size() ? std::optional(std::move(named)) : std::nullopt;
 }
 
-NamedPoints with_other_order(NamedPoints named) {
-  std::swap(named.x_m, named.y_m);
-  return named;
+Point2d first_of(const NamedPoints& named) {
+  return named.ids.empty() ? Point2d{} : Point2d{named.x_m.front(), named.y_m.front()};
 }
 
+bool is_near_as_degrees(Point2d p, const PackageDescription& package) {
+  RequestedPoints one;
+  one.points.emplace_back();
+  one.points.back().x = p.x;
+  one.points.back().y = p.y;
+  return near_as_degrees(NamedPoints(std::move(one)), package).has_value();
+}
+
+/// What is said of the CRS of points, and the first of them as it was given.
+struct GivenPlaces {
+  bool says_crs, may_say_crs;
+  Point2d first;
+};
+
 /// Takes degrees for what they are where no CRS was said. Throws PointsError where all places lie far from the city.
-NamedPoints near_city(NamedPoints named, bool says_crs, const PackageDescription& package) {
+NamedPoints near_city(NamedPoints named, const GivenPlaces& given, const PackageDescription& package) {
   const std::size_t all = named.ids.size(), near = near_count(named, package);
   if (near == all || !is_on_some_map({named.x_m.front(), named.y_m.front()})) return named;
-  const std::string first = fmt::format("{:.10g}, {:.10g}", named.x_m.front(), named.y_m.front());
+  const std::string first = fmt::format("{:.10g}, {:.10g}", given.first.x, given.first.y);
   if (near > 0) {
     named.notes.push_back(fmt::format("{} of {} points lie more than 100 km from the city.", all - near, all));
     return named;
   }
-  if (auto degrees = says_crs ? std::nullopt : near_as_degrees(named, package)) {
+  if (auto degrees = given.says_crs ? std::nullopt : near_as_degrees(named, package)) {
     degrees->notes.push_back(fmt::format("{} was taken for longitude and latitude (WGS 84).", first));
     return std::move(*degrees);
   }
-  const bool is_swapped = !says_crs && near_as_degrees(with_other_order(named), package);
+  const bool is_swapped = is_near_as_degrees({given.first.y, given.first.x}, package);
   const Point2d city = 0.5 * (package.outline_projected.low + package.outline_projected.high);
-  throw PointsError(fmt::format(
-      "{} lies more than 100 km from the city, which is at {:.0f}, {:.0f} in {}: {}", first, city.x, city.y, package.crs_name,
-      is_swapped ? "give the longitude before the latitude." : "check the coordinates, and their CRS (--points-crs)."));
+  throw PointsError(fmt::format("{} lies more than 100 km from the city, which is at {:.0f}, {:.0f} in {}: {}", first, city.x,
+                                city.y, package.crs_name,
+                                is_swapped          ? "give the longitude before the latitude."
+                                : given.may_say_crs ? "check the coordinates, and their CRS (--points-crs)."
+                                                    : "check the coordinates: they are of that CRS, or longitude and latitude."));
 }
 
 }  // namespace
@@ -186,14 +201,19 @@ NamedPoints requested_points(const SvfOptions& options, const PackageDescription
   if (options.source == ReceiverSource::at) {
     RequestedPoints one;
     one.points = {options.at};
-    return near_city(NamedPoints(std::move(one)), false, package);
+    return near_city(NamedPoints(std::move(one)), {false, false, {options.at.x, options.at.y}}, package);
   }
-  if (options.source == ReceiverSource::lines) return near_city(NamedPoints(read_lines(options, package)), true, package);
+  if (options.source == ReceiverSource::lines) {
+    NamedPoints lines(read_lines(options, package));
+    const Point2d first = first_of(lines);
+    return near_city(std::move(lines), {true, true, first}, package);
+  }
   RequestedPoints read = read_point_file(options.points_file, options.points_layer);
   const std::string crs = crs_of(read, options, read.notes);
   NamedPoints named(std::move(read));
+  const Point2d first = first_of(named);
   if (!crs.empty()) move_to_package_crs(named, crs, package);
-  return near_city(std::move(named), !crs.empty(), package);
+  return near_city(std::move(named), {!crs.empty(), true, first}, package);
 }
 
 PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {

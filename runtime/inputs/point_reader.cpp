@@ -57,25 +57,30 @@ PointFields columns_without_header(const TextRecord& first, const std::filesyste
   return columns;
 }
 
-double coordinate(const TextRecord& record, std::size_t column, const char* name, const std::filesystem::path& path) {
+/// The names of columns are those of the header, if there is one.
+double coordinate(const TextRecord& record, std::size_t column, const std::string& name, const std::filesystem::path& path) {
   if (column >= record.fields.size())
-    refuse(path, record.line, std::string("the row ends before ") + name + "; give each row as many fields as the first");
+    refuse(path, record.line, "the row ends before " + name + "; give each row as many fields as the first");
   const std::optional<double> value = number_in(record.fields[column]);
   if (!value) refuse(path, record.line, "\"" + record.fields[column] + "\" is not a number (" + name + "); write it like 1234.5");
   return *value;
 }
 
 /// None where the table has no such column, or the row nothing in it.
-std::optional<double> number_if_any(const TextRecord& record, std::optional<std::size_t> column, const char* name,
+std::optional<double> number_if_any(const TextRecord& record, std::optional<std::size_t> column, const std::string& name,
                                     const std::filesystem::path& path) {
   if (!column || *column >= record.fields.size() || record.fields[*column].empty()) return std::nullopt;
   return coordinate(record, *column, name, path);
 }
 
-RequestedPoint point_of(const TextRecord& record, const PointFields& columns, const std::filesystem::path& path) {
+RequestedPoint point_of(const TextRecord& record, const PointFields& columns, const TextRecord& header,
+                        const std::filesystem::path& path) {
+  const auto name_of = [&](std::size_t column, const char* without_header) {
+    return column < header.fields.size() ? header.fields[column] : std::string(without_header);
+  };
   RequestedPoint point;
-  point.x = coordinate(record, *columns.x, "x", path);
-  point.y = coordinate(record, *columns.y, "y", path);
+  point.x = coordinate(record, *columns.x, name_of(*columns.x, "x"), path);
+  point.y = coordinate(record, *columns.y, name_of(*columns.y, "y"), path);
   point.z = number_if_any(record, columns.z, "z", path);
   point.normal =
       normal_of(number_if_any(record, columns.azimuth, "azimuth", path), number_if_any(record, columns.tilt, "tilt", path),
@@ -123,26 +128,32 @@ std::string text_of(const std::filesystem::path& path) {
 class UnreadRows {
  public:
   template <class Read>
-  void count_unless(const Read& read) {
+  void count_unless(std::size_t line, const Read& read) {
     try {
       read();
     } catch (const PointsError& error) {
       if (!first_) first_ = error;
-      ++count_;
+      if (++count_ <= lines_named) lines_ += (count_ > 1 ? ", " : "") + std::to_string(line);
     }
   }
   /// Throws the first error where more than a tenth of the rows are unread.
   void tell(std::size_t rows, RequestedPoints& points) const {
     if (!first_) return;
-    if (10 * count_ > rows) throw PointsError(*first_);
+    const std::string lines = count_ == 1 ? "" : " (lines " + lines_ + (count_ > lines_named ? ", …)" : ")");
+    if (10 * count_ > rows)
+      throw PointsError(
+          std::string(first_->what()) +
+          (count_ == 1 ? "" : "; rows that cannot be read: " + std::to_string(count_) + " of " + std::to_string(rows) + lines));
     points.skipped_features = count_;
     points.notes.push_back(std::string(first_->what()) + ". Left out of " + std::to_string(rows) +
-                           " rows, since they cannot be read: " + std::to_string(count_) + ".");
+                           " rows, since they cannot be read: " + std::to_string(count_) + lines + ".");
   }
 
  private:
+  static constexpr std::size_t lines_named = 10;
   std::optional<PointsError> first_;
   std::size_t count_ = 0;
+  std::string lines_;
 };
 
 /// Throws PointsError for a page, a document or an archive: what would be said of its columns leads nowhere.
@@ -171,11 +182,13 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
   std::vector<RequestedPoint>& points = result.points;
   points.reserve(records.size());
   UnreadRows unread;
+  const TextRecord no_header;
+  const TextRecord& header_row = header ? records.front() : no_header;
   const std::span rows = std::span(records).subspan(header ? 1 : 0);
   for (std::size_t n = 0; n < rows.size(); ++n)
-    unread.count_unless([&] {
+    unread.count_unless(rows[n].line, [&] {
       if (header) require_columns_for_all(rows[n], records.front().fields.size(), path);
-      points.push_back(point_of(rows[n], columns, path));
+      points.push_back(point_of(rows[n], columns, header_row, path));
       result.attributes.add_row(chosen_fields(rows[n], columns.attributes));
       if (points.back().id.empty()) points.back().id = std::to_string(n + 1);
     });

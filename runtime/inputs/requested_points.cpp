@@ -48,10 +48,12 @@ PointFields point_fields(std::span<const std::string> names, PlacesIn places,
   fields.azimuth = find_column(names, azimuth_names, refuse);
   fields.tilt = find_column(names, tilt_names, refuse);
   if (!fields.azimuth || !fields.tilt) fields.azimuth = fields.tilt = std::nullopt;
+  // Answers have places in metres: degrees come back beside them
+  const bool in_degrees = fields.x && are_degrees(names[*fields.x]);
   for (std::size_t n = 0; n < names.size(); ++n) {
     const bool is_named_id = n == fields.id && lower_case(names[n]) == id_names[0];
-    if (!is_named_id && n != fields.x && n != fields.y && n != fields.z && n != fields.azimuth && n != fields.tilt)
-      fields.attributes.push_back(n);
+    const bool is_place = !in_degrees && (n == fields.x || n == fields.y);
+    if (!is_named_id && !is_place && n != fields.z && n != fields.azimuth && n != fields.tilt) fields.attributes.push_back(n);
   }
   return fields;
 }

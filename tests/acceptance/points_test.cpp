@@ -51,7 +51,12 @@ TEST_F(PackedTown, APlaceFarFromTheCityIsRefused) {
   };
   EXPECT_THAT(refusal("49.664,9.0"), HasSubstr("give the longitude before the latitude"));
   EXPECT_THAT(refusal("4,52"), HasSubstr("lies more than 100 km from the city"));
-  EXPECT_THAT(refusal("5500000,500000"), HasSubstr("lies more than 100 km from the city"));
+  EXPECT_THAT(refusal("5500000,500000"), HasSubstr("they are of that CRS, or longitude and latitude"));
+  folder.write("swapped.csv", "lon,lat\n49.664,9.0\n");
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points swapped.csv");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("49.664, 9 lies more than 100 km"), HasSubstr("give the longitude before the latitude")));
 }
 
 TEST_F(PackedTown, FarPlacesAmongOthersAreCounted) {

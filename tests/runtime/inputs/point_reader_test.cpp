@@ -92,6 +92,16 @@ TEST(PointReader, AzimuthAndTiltAreANormal) {
   EXPECT_EQ(table.points[2].normal->tilt_deg, 0.0);
 }
 
+TEST(PointReader, TheRowsOfARefusedTableAreCounted) {
+  EXPECT_THAT(complaint_about("lon,lat\n1,1\nfoo,2\nbar,3\n"),
+              AllOf(HasSubstr("points.csv:3: \"foo\" is not a number (lon)"), HasSubstr("cannot be read: 2 of 3 (lines 3, 4)")));
+}
+
+TEST(PointReader, DegreesComeBackBesideTheMetresOfAnswers) {
+  EXPECT_THAT(table_of("Station,lon,lat,note\na,4.4,51.9,b\n").attributes.names(), ElementsAre("Station", "lon", "lat", "note"));
+  EXPECT_EQ(points_in("Station,lon,lat\na,4.4,51.9\n")[0].id, "a");
+}
+
 TEST(PointReader, HalfANormalIsRefusedInARow) {
   EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,90,\n"), HasSubstr("points.csv:2: there is an azimuth and no tilt"));
   EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,,9\n"), HasSubstr("points.csv:2: there is a tilt and no azimuth"));
@@ -131,6 +141,8 @@ TEST(PointReader, ARowOfManyThatCannotBeReadIsLeftOutAndTold) {
   EXPECT_THAT(read.notes, ElementsAre(AllOf(HasSubstr("points.csv:8"), HasSubstr("\"unknown\""), HasSubstr("of 20 rows"))));
   EXPECT_EQ(read.points[6].id, "8") << "rows keep their numbers";
   EXPECT_THAT(row_of(read.attributes, 6), ElementsAre("s8"));
+  EXPECT_THAT(table_of(stations + "u,5,\nv,5,\n" + stations.substr(stations.find('\n') + 1)).notes,
+              ElementsAre(HasSubstr("cannot be read: 4 (lines 8, 22, 23, 30).")));
   // One row in five is no accident
   EXPECT_THAT(complaint_about("x,y\n1,1\n2,2\nunknown,3\n4,4\n5,5\n"), HasSubstr("points.csv:4"));
 }
