@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -21,13 +20,12 @@ using testing::HasSubstr;
 
 /// A CityJSON file with one house of 10 m.
 std::string house(const std::string& id, int east_m) {
-  return fmt::format(
-      R"({{"type":"CityJSON","version":"2.0","CityObjects":{{"{}":{{"type":"Building","geometry":[{{"type":"MultiSurface",)"
-      R"("lod":"2","boundaries":[[[4,5,6,7]],[[0,3,2,1]],[[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]],"semantics":)"
-      R"({{"surfaces":[{{"type":"RoofSurface"}},{{"type":"GroundSurface"}},{{"type":"WallSurface"}}],"values":[0,1,2,2,2,2]}}}}]}}}},)"
-      R"("vertices":[[0,0,0],[10,0,0],[10,10,0],[0,10,0],[0,0,10],[10,0,10],[10,10,10],[0,10,10]],)"
-      R"("transform":{{"scale":[1,1,1],"translate":[{},5500000,100]}}}})",
-      id, 500000 + east_m);
+  return R"({"type":"CityJSON","version":"2.0","CityObjects":{")" + id +
+         R"(":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2","boundaries":[[[4,5,6,7]],[[0,3,2,1]],[[0,1,5,4]],)"
+         R"([[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]],"semantics":{"surfaces":[{"type":"RoofSurface"},{"type":"GroundSurface"},)"
+         R"({"type":"WallSurface"}],"values":[0,1,2,2,2,2]}}]}},"vertices":[[0,0,0],[10,0,0],[10,10,0],[0,10,0],[0,0,10],)"
+         R"([10,0,10],[10,10,10],[0,10,10]],"transform":{"scale":[1,1,1],"translate":[)" +
+         std::to_string(500000 + east_m) + ",5500000,100]}}";
 }
 
 class EnrichedFolder : public testing::Test {

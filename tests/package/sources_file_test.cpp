@@ -225,7 +225,7 @@ BuildingOrigin random_origin(std::mt19937_64& random) {
   add_places(origin.semantics, below(6));
   std::uint32_t surface = 0;
   for (std::uint64_t n = below(20); n > 0; --n) {
-    surface += static_cast<std::uint32_t>(below(20) == 0 ? below(1'000'000'000) : below(3));
+    surface += static_cast<std::uint32_t>(below(20) == 0 ? below(200'000'000) : below(3));
     SurfaceOrigin& added = origin.surfaces.emplace_back();
     added.surface = surface;
     added.object = static_cast<std::uint32_t>(below(origin.objects.size()));
