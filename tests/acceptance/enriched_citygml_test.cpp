@@ -70,10 +70,11 @@ def compare_surface(surface, values, building):
     if len(polygons) != 1: return
     found['of_one_polygon'] += 1
     found['wrong'] += not same
-    own = [row for row in named[building] if row['surface_id'] == id_of(surface)]
+    called = id_of(surface) or id_of(polygons[0])
+    own = [row for row in named[building] if row['surface_id'] == called]
     found['named'] += len(own) == 1 and [own[0][k] for k in of_table] == mine[:5]
     found['misnamed'] += len(own) == 1 and [own[0][k] for k in of_table] != mine[:5]
-    found['unnamed'] += not own and id_of(surface) is not None
+    found['unnamed'] += not own and called is not None
     area = area_of(polygons[0])
     found['areas'] += abs(float(mine[3]) + float(mine[4]) - area) <= 0.02 * area + 0.05
 
