@@ -164,6 +164,29 @@ inline void append_origin(std::vector<std::uint8_t>& bytes, const BuildingOrigin
   if (!origin.ids.empty()) append_ids(bytes, origin.ids);
 }
 
+namespace origin_coding {
+
+/// Whether the bytes are surfaces of what is there.
+[[nodiscard]] inline bool read_surfaces(SourcesCursor& cursor, BuildingOrigin& origin) {
+  auto [expected, before] = first_expected;
+  for (SurfaceOrigin& surface : origin.surfaces) {
+    const std::uint64_t code = cursor.number(), row = row_of(before) + difference_of(code >> 1U);
+    const bool is_unexpected = (code & 1U) != 0;
+    const std::uint64_t number = expected + (is_unexpected ? difference_of(cursor.number()) : 0);
+    surface.object = is_unexpected ? cursor.number32() : before.object;
+    if (cursor.failed() || number > std::numeric_limits<std::uint32_t>::max() || number + 1 < expected ||
+        surface.object >= origin.objects.size() || row > origin.semantics.size())
+      return false;
+    surface.surface = static_cast<std::uint32_t>(number);
+    if (row > 0) surface.semantics = static_cast<std::uint32_t>(row - 1);
+    before = surface;
+    expected = number + 1;
+  }
+  return true;
+}
+
+}  // namespace origin_coding
+
 /// The inverse of append_origin; nothing where the bytes are not such, or name an object or a semantic surface that is not there.
 [[nodiscard]] inline std::optional<BuildingOrigin> origin_from(std::span<const std::uint8_t> bytes) {
   SourcesCursor cursor(bytes);
@@ -176,20 +199,7 @@ inline void append_origin(std::vector<std::uint8_t>& bytes, const BuildingOrigin
   AttributePlace place;
   origin_coding::read_places(cursor, origin.objects, place);
   origin_coding::read_places(cursor, origin.semantics, place);
-  auto [expected, before] = origin_coding::first_expected;
-  for (SurfaceOrigin& surface : origin.surfaces) {
-    const std::uint64_t code = cursor.number(), row = origin_coding::row_of(before) + difference_of(code >> 1U);
-    const bool is_unexpected = (code & 1U) != 0;
-    const std::uint64_t number = expected + (is_unexpected ? difference_of(cursor.number()) : 0);
-    surface.object = is_unexpected ? cursor.number32() : before.object;
-    if (cursor.failed() || number > std::numeric_limits<std::uint32_t>::max() || number + 1 < expected ||
-        surface.object >= objects || row > semantics)
-      return std::nullopt;
-    surface.surface = static_cast<std::uint32_t>(number);
-    if (row > 0) surface.semantics = static_cast<std::uint32_t>(row - 1);
-    before = surface;
-    expected = number + 1;
-  }
+  if (!origin_coding::read_surfaces(cursor, origin)) return std::nullopt;
   if (!cursor.failed() && !cursor.at_end() && !read_ids(cursor, origin.ids)) return std::nullopt;
   return cursor.failed() || !cursor.at_end() ? std::nullopt : std::optional(std::move(origin));
 }

@@ -96,6 +96,13 @@ TEST_F(EnrichedFolder, TablesHaveTheIdsOfTheFiles) {
   ASSERT_EQ(table.size(), 10U);
   for (std::size_t n = 0; n < table.size(); ++n)
     EXPECT_EQ(table.text(n, "surface_id"), table.text(n, "building") + (table.text(n, "kind") == "roof" ? "#0" : "#2"));
+  EXPECT_EQ(table.header().back(), "surface_id");
+  ASSERT_EQ(enriched("-o o.geojson").exit_code, 0);
+  for (const nlohmann::json& feature : folder.json_of("o.surfaces.geojson").at("features")) {
+    const nlohmann::json& properties = feature.at("properties");
+    EXPECT_THAT(properties.at("surface_id").get<std::string>(),
+                testing::StartsWith(properties.at("building").get<std::string>()));
+  }
   ASSERT_EQ(enriched("-o p.csv --threads 1").exit_code, 0);
   EXPECT_EQ(folder.text_of("o.surfaces.csv"), folder.text_of("p.surfaces.csv"));
 }

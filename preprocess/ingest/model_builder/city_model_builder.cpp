@@ -313,7 +313,7 @@ std::vector<package::SurfaceIds> CityModelBuilder::take_ids() {
 void CityModelBuilder::end_building(std::string_view missing, const PlacesOfBuilding* places) {
   report_repairs();
   if (city_.buildings().back().facet_count > 0 && (places != nullptr || !surface_ids_.empty())) {
-    // Of a file without places, the building itself has none
+    // The building itself has no place in a file that has none
     PlacesOfBuilding nowhere;
     nowhere.objects.emplace_back();
     if (places == nullptr) origins_.clear();
