@@ -18,20 +18,20 @@ SourcesFile::SourcesFile(const PackageFolder& folder, const package::Manifest& m
   check_header(manifest);
   const std::span<const std::byte> contents = mapped_.bytes().subspan(sizeof(SourcesHeader));
   SourcesCursor cursor({reinterpret_cast<const std::uint8_t*>(contents.data()), contents.size()});
-  const auto& header = *reinterpret_cast<const SourcesHeader*>(mapped_.bytes().data());
-  for (std::uint32_t n = 0; n < header.file_count; ++n) read_file(cursor, manifest);
-  for (std::uint64_t n = 0; n < header.building_count; ++n) read_building(cursor);
+  for (std::uint32_t n = 0; n < header().file_count; ++n) read_file(cursor, manifest);
+  for (std::uint64_t n = 0; n < header().building_count; ++n) read_building(cursor);
   require(cursor.at_end() && !cursor.failed(), "its length is not that of its contents");
 }
+
+const SourcesHeader& SourcesFile::header() const { return *reinterpret_cast<const SourcesHeader*>(mapped_.bytes().data()); }
 
 void SourcesFile::check_header(const package::Manifest& manifest) const {
   const std::span<const std::byte> bytes = mapped_.bytes();
   require(bytes.size() >= sizeof(SourcesHeader), "it has no header");
-  const auto& header = *reinterpret_cast<const SourcesHeader*>(bytes.data());
-  require(header.magic == package::sources_magic, "it does not begin as sources.bin does");
-  require_readable_version(name_, header.version, package::sources_version, package::sources_version);
-  require(header.file_bytes == bytes.size(), "its length is another one than it says");
-  require(header.building_count == manifest.buildings, "it does not have the buildings that the manifest counts");
+  require(header().magic == package::sources_magic, "it does not begin as sources.bin does");
+  require_readable_version(name_, header().version, package::sources_version, package::sources_version_with_ids);
+  require(header().file_bytes == bytes.size(), "its length is another one than it says");
+  require(header().building_count == manifest.buildings, "it does not have the buildings that the manifest counts");
 }
 
 void SourcesFile::read_file(SourcesCursor& cursor, const package::Manifest& manifest) {
@@ -55,12 +55,16 @@ void SourcesFile::read_file(SourcesCursor& cursor, const package::Manifest& mani
 void SourcesFile::read_building(SourcesCursor& cursor) {
   Row row{cursor.number32(), {}};
   require(!cursor.failed() && row.file <= files_.size(), "a building is of a file that does not exist");
-  if (row.file > 0) {
+  const bool has_ids = header().version >= package::sources_version_with_ids;
+  if (row.file > 0 || has_ids) {
     row.bytes = cursor.take(cursor.count());
     require(!cursor.failed(), "it ends within its buildings");
+  }
+  if (row.file > 0 || !row.bytes.empty()) {
     const std::optional<BuildingOrigin> origin = package::origin_from(row.bytes);
     require(origin.has_value(), "a building has surfaces of what does not exist");
-    check(*origin, files_[row.file - 1]);
+    require(has_ids || origin->ids.empty(), "its version has no ids");
+    if (row.file > 0) check(*origin, files_[row.file - 1]);
   }
   buildings_.push_back(row);
 }

@@ -34,6 +34,11 @@ class SourcesFile {
     for (std::size_t n = 0; n < buildings_.size(); ++n)
       if (buildings_[n].file > 0) visit(static_cast<std::uint32_t>(n), buildings_[n].file - std::size_t{1}, origin_of(n));
   }
+  /// What a building of the city comes from, of whatever file; nothing where that is not known.
+  [[nodiscard]] std::optional<BuildingOrigin> find(std::uint32_t building) const {
+    if (building >= buildings_.size() || buildings_[building].bytes.empty()) return std::nullopt;
+    return origin_of(building);
+  }
 
  private:
   struct Row {
@@ -41,6 +46,7 @@ class SourcesFile {
     std::span<const std::uint8_t> bytes;
   };
 
+  [[nodiscard]] const package::SourcesHeader& header() const;
   void check_header(const package::Manifest& manifest) const;
   void read_file(package::SourcesCursor& cursor, const package::Manifest& manifest);
   void read_building(package::SourcesCursor& cursor);
@@ -62,7 +68,8 @@ struct SourceOfPackage {
 };
 
 /// Writes `sources.bin` into the folder of a package, which is made where there is none. `files`: as LocatedCity::sources; empty
-/// where attributes have no places. Returns its stamp; nothing where no file has places. Throws OutputError.
+/// where attributes have no places. Returns its stamp; nothing where no file has places, and no surface an id. Throws
+/// OutputError.
 [[nodiscard]] std::optional<package::FileStamp> write_sources(const std::filesystem::path& folder, const TileSources& sources,
                                                               std::span<const std::optional<SourceOfPackage>> files);
 

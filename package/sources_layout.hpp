@@ -18,8 +18,8 @@
 /// in words.
 namespace farlod::package {
 
-/// The version of `sources.bin`, which changes on its own.
-inline constexpr std::uint32_t sources_version = 1;
+/// The versions of `sources.bin`, which change on their own: 2 where surfaces have ids.
+inline constexpr std::uint32_t sources_version = 1, sources_version_with_ids = 2;
 inline constexpr std::array<char, 8> sources_magic{'F', 'A', 'R', 'L', 'O', 'D', 'S', '\n'};
 inline constexpr const char* sources_file = "sources.bin";  ///< in the folder of the package
 
@@ -38,6 +38,7 @@ using farlod::AttributeForm;
 using farlod::AttributePlace;
 using farlod::BuildingOrigin;
 using farlod::CityFileFormat;
+using farlod::SurfaceIds;
 using farlod::SurfaceOrigin;
 
 /// A whole number in bytes of seven bits, the lowest first; all but the last have bit 7 set.
@@ -131,6 +132,14 @@ inline constexpr std::pair<std::uint64_t, SurfaceOrigin> first_expected{0, {}};
 
 }  // namespace origin_coding
 
+/// The longest id of a surface that is kept.
+inline constexpr std::size_t most_id_bytes = 256;
+
+/// Appends the ids of a building's surfaces, at least one, behind all else of its origin.
+void append_ids(std::vector<std::uint8_t>& bytes, const std::vector<SurfaceIds>& ids);
+/// Reads what append_ids has written; false where the bytes are not such.
+[[nodiscard]] bool read_ids(SourcesCursor& cursor, std::vector<SurfaceIds>& ids);
+
 /// Appends the bytes of a building's origin. What follows from what comes before takes no byte: most surfaces take one, and most
 /// places two.
 inline void append_origin(std::vector<std::uint8_t>& bytes, const BuildingOrigin& origin) {
@@ -152,7 +161,31 @@ inline void append_origin(std::vector<std::uint8_t>& bytes, const BuildingOrigin
     before = surface;
     expected = std::uint64_t{surface.surface} + 1;
   }
+  if (!origin.ids.empty()) append_ids(bytes, origin.ids);
 }
+
+namespace origin_coding {
+
+/// Whether the bytes are surfaces of what is there.
+[[nodiscard]] inline bool read_surfaces(SourcesCursor& cursor, BuildingOrigin& origin) {
+  auto [expected, before] = first_expected;
+  for (SurfaceOrigin& surface : origin.surfaces) {
+    const std::uint64_t code = cursor.number(), row = row_of(before) + difference_of(code >> 1U);
+    const bool is_unexpected = (code & 1U) != 0;
+    const std::uint64_t number = expected + (is_unexpected ? difference_of(cursor.number()) : 0);
+    surface.object = is_unexpected ? cursor.number32() : before.object;
+    if (cursor.failed() || number > std::numeric_limits<std::uint32_t>::max() || number + 1 < expected ||
+        surface.object >= origin.objects.size() || row > origin.semantics.size())
+      return false;
+    surface.surface = static_cast<std::uint32_t>(number);
+    if (row > 0) surface.semantics = static_cast<std::uint32_t>(row - 1);
+    before = surface;
+    expected = number + 1;
+  }
+  return true;
+}
+
+}  // namespace origin_coding
 
 /// The inverse of append_origin; nothing where the bytes are not such, or name an object or a semantic surface that is not there.
 [[nodiscard]] inline std::optional<BuildingOrigin> origin_from(std::span<const std::uint8_t> bytes) {
@@ -166,20 +199,8 @@ inline void append_origin(std::vector<std::uint8_t>& bytes, const BuildingOrigin
   AttributePlace place;
   origin_coding::read_places(cursor, origin.objects, place);
   origin_coding::read_places(cursor, origin.semantics, place);
-  auto [expected, before] = origin_coding::first_expected;
-  for (SurfaceOrigin& surface : origin.surfaces) {
-    const std::uint64_t code = cursor.number(), row = origin_coding::row_of(before) + difference_of(code >> 1U);
-    const bool is_unexpected = (code & 1U) != 0;
-    const std::uint64_t number = expected + (is_unexpected ? difference_of(cursor.number()) : 0);
-    surface.object = is_unexpected ? cursor.number32() : before.object;
-    if (cursor.failed() || number > std::numeric_limits<std::uint32_t>::max() || number + 1 < expected ||
-        surface.object >= objects || row > semantics)
-      return std::nullopt;
-    surface.surface = static_cast<std::uint32_t>(number);
-    if (row > 0) surface.semantics = static_cast<std::uint32_t>(row - 1);
-    before = surface;
-    expected = number + 1;
-  }
+  if (!origin_coding::read_surfaces(cursor, origin)) return std::nullopt;
+  if (!cursor.failed() && !cursor.at_end() && !read_ids(cursor, origin.ids)) return std::nullopt;
   return cursor.failed() || !cursor.at_end() ? std::nullopt : std::optional(std::move(origin));
 }
 

@@ -53,8 +53,19 @@ class Gathered {
   std::uint64_t written_ = 0;
 };
 
+/// Whether a building has surfaces with ids.
+bool any_ids(const TileSources& sources) {
+  std::uint64_t begin = 0;
+  for (const TileSources::OfBuilding& building : sources.buildings) {
+    const auto origin = package::origin_from(std::span(sources.origins.data() + begin, building.bytes));
+    if (origin && !origin->ids.empty()) return true;
+    begin += building.bytes;
+  }
+  return false;
+}
+
 /// Returns the number of bytes.
-std::uint64_t write_contents(std::ofstream& file, const TileSources& sources, Files files) {
+std::uint64_t write_contents(std::ofstream& file, const TileSources& sources, Files files, bool with_ids) {
   Gathered gathered(file);
   std::vector<std::uint64_t> numbers(files.size());  // counted from 1 among those with places
   std::uint64_t with_places = 0;
@@ -65,11 +76,11 @@ std::uint64_t write_contents(std::ofstream& file, const TileSources& sources, Fi
   }
   std::uint64_t begin = 0;
   for (const TileSources::OfBuilding& building : sources.buildings) {
-    const bool has_origin = building.bytes > 0 && building.source < files.size() && files[building.source];
-    package::append_number(gathered.bytes(), has_origin ? numbers[building.source] : 0);
+    const bool has_places = building.bytes > 0 && building.source < files.size() && files[building.source];
+    package::append_number(gathered.bytes(), has_places ? numbers[building.source] : 0);
     const std::span<const std::uint8_t> origin(sources.origins.data() + begin, building.bytes);
     begin += building.bytes;
-    if (!has_origin) continue;
+    if (!has_places && !with_ids) continue;
     package::append_number(gathered.bytes(), origin.size());
     gathered.bytes().insert(gathered.bytes().end(), origin.begin(), origin.end());
     gathered.write_if_many();
@@ -78,16 +89,16 @@ std::uint64_t write_contents(std::ofstream& file, const TileSources& sources, Fi
   return gathered.written();
 }
 
-void write(const std::filesystem::path& path, const TileSources& sources, Files files) {
+void write(const std::filesystem::path& path, const TileSources& sources, Files files, bool with_ids) {
   std::ofstream file(path, std::ios::binary);
   package::SourcesHeader header{};
   header.magic = package::sources_magic;
-  header.version = package::sources_version;
+  header.version = with_ids ? package::sources_version_with_ids : package::sources_version;
   header.file_count = static_cast<std::uint32_t>(std::ranges::count_if(files, [](const auto& f) { return f.has_value(); }));
   header.building_count = sources.buildings.size();
   const auto put_header = [&] { file.write(reinterpret_cast<const char*>(&header), sizeof(header)); };
   put_header();
-  header.file_bytes = sizeof(header) + write_contents(file, sources, files);
+  header.file_bytes = sizeof(header) + write_contents(file, sources, files, with_ids);
   file.seekp(0);
   put_header();
   file.close();
@@ -97,11 +108,12 @@ void write(const std::filesystem::path& path, const TileSources& sources, Files 
 }  // namespace
 
 std::optional<package::FileStamp> write_sources(const std::filesystem::path& folder, const TileSources& sources, Files files) {
-  if (std::ranges::none_of(files, [](const auto& file) { return file.has_value(); })) return std::nullopt;
+  const bool with_ids = any_ids(sources);
+  if (!with_ids && std::ranges::none_of(files, [](const auto& file) { return file.has_value(); })) return std::nullopt;
   make_folder(folder);
   package::FileStamp stamp;
   write_durably(folder / package::sources_file, [&](const std::filesystem::path& part) {
-    write(part, sources, files);
+    write(part, sources, files, with_ids);
     stamp = stamp_of(part);
   });
   return stamp;

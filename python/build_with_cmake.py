@@ -3,11 +3,12 @@
 """Compiles the modules of the Python packages with CMake, for the setup.py of both.
 
 FARLOD_CMAKE_BUILD names the build folder of CMake (default: build/python-wheel of the sources). One that is there already, as
-scripts/test leaves it, saves the time.
+scripts/test leaves it, saves the time. What setuptools makes on its way lies there, too: the sources stay as they are.
 """
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import re
 import shutil
@@ -30,6 +31,30 @@ DEBIAN_PACKAGES = {
     "preprocess": _OF_BOTH
     + "libcgal-dev libgmp-dev libmpfr-dev libgeographiclib-dev libproj-dev libgdal-dev libexpat1-dev".split(),
 }
+
+
+def cmake_build() -> Path:
+    """The build folder of CMake."""
+    return Path(os.environ.get("FARLOD_CMAKE_BUILD", ROOT / "build" / "python-wheel"))
+
+
+def options_of_setup(module: str) -> dict[str, dict[str, str]]:
+    """Where setuptools puts what it makes on its way: by default, into the folder of the package."""
+    require_wheel()
+    folder = cmake_build().resolve() / "setuptools" / module
+    metadata = folder / "metadata"
+    metadata.mkdir(parents=True, exist_ok=True)
+    return {"build": {"build_base": str(folder)}, "egg_info": {"egg_base": str(metadata)}}
+
+
+def require_wheel() -> None:
+    """Without `wheel`, setuptools before 70.1 says "invalid command 'bdist_wheel'", which does not tell what to do."""
+    has_command = any(importlib.util.find_spec(name) for name in ("wheel", "setuptools._vendor.wheel", "setuptools.command.bdist_wheel"))
+    if not has_command:
+        raise SystemExit(
+            f"{sys.executable} has no package wheel. Is it another Python than Debian's? Make the environment by "
+            "/usr/bin/python3 -m venv --system-site-packages, or install wheel in this one."
+        )
 
 
 def version() -> str:
@@ -59,7 +84,7 @@ class BuildWithCMake(build_ext):
         missing = missing_packages(module)
         if missing:
             raise SystemExit(f"{extension.name} needs Debian packages that are not installed: apt-get install {' '.join(missing)}")
-        build = Path(os.environ.get("FARLOD_CMAKE_BUILD", ROOT / "build" / "python-wheel"))
+        build = cmake_build()
         if not (build / "CMakeCache.txt").exists():
             self._run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", *self._options())
         self._run("cmake", "--build", build, "--target", f"farlod_python_{module}")

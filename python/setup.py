@@ -9,6 +9,11 @@ from setuptools import Extension, setup
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from build_with_cmake import BuildWithCMake, version  # noqa: E402
+from build_with_cmake import BuildWithCMake, options_of_setup, version  # noqa: E402
 
-setup(version=version(), ext_modules=[Extension("farlod._runtime", [])], cmdclass={"build_ext": BuildWithCMake})
+setup(
+    version=version(),
+    ext_modules=[Extension("farlod._runtime", [])],
+    cmdclass={"build_ext": BuildWithCMake},
+    options=options_of_setup("runtime"),
+)

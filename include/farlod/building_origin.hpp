@@ -32,6 +32,13 @@ struct SurfaceOrigin {
   bool operator==(const SurfaceOrigin&) const = default;
 };
 
+/// What the file calls consecutive surfaces of a building.
+struct SurfaceIds {
+  std::uint32_t begin = 0, end = 0;  ///< numbers of surfaces, half open
+  std::string id;                    ///< 1 to 256 bytes; a byte 0 at its beginning stands for the id of the building
+  bool operator==(const SurfaceIds&) const = default;
+};
+
 /// Where a building comes from.
 struct BuildingOrigin {
   std::vector<AttributePlace> objects;    ///< the building itself first, then those of its parts and installations with surfaces
@@ -39,6 +46,8 @@ struct BuildingOrigin {
   /// In ascending order of their numbers. A polygon that the file has several times is there as often, with the object of the
   /// first. A surface of the building itself without semantics is not there.
   std::vector<SurfaceOrigin> surfaces;
+  /// In ascending order. A surface without an id in the file is not there; older packages have none.
+  std::vector<SurfaceIds> ids = {};
   bool operator==(const BuildingOrigin&) const = default;
 };
 

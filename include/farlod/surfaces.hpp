@@ -70,6 +70,9 @@ struct SurfaceMean {
   std::optional<double> svf_mean = {}, svf_min = {}, svf_max = {};
   std::vector<double> further_mean = {};            ///< of the same; empty where no receiver has an answer
   std::optional<AreaIrradiation> irradiation = {};  ///< of area_m2, with Quantities::irradiation; none where that is 0
+  /// What the city file calls it: the semantic surface, or else its polygon. Empty where file or package do not tell, and where
+  /// several buildings share their id.
+  std::string id = {};
 };
 
 /// Area-weighted means over the roofs and walls of a building.

@@ -9,11 +9,12 @@ from setuptools import Extension, setup
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from build_with_cmake import BuildWithCMake, version  # noqa: E402
+from build_with_cmake import BuildWithCMake, options_of_setup, version  # noqa: E402
 
 setup(
     version=version(),
     install_requires=[f"farlod=={version()}"],
     ext_modules=[Extension("farlod_preprocess._preprocess", [])],
     cmdclass={"build_ext": BuildWithCMake},
+    options=options_of_setup("preprocess"),
 )

@@ -41,6 +41,13 @@ py::list buildings_of(const std::vector<Row>& rows) {
   return names;
 }
 
+std::vector<std::string> ids_of(const std::vector<SurfaceMean>& rows) {
+  std::vector<std::string> ids;
+  ids.reserve(rows.size());
+  for (const SurfaceMean& row : rows) ids.push_back(row.id);
+  return ids;
+}
+
 /// Values of further columns, row by row; NaN where a row has none.
 template <class Row, class Values>
 py::array_t<double> further_of(const std::vector<Row>& rows, std::size_t columns, const Values& values_of) {
@@ -56,7 +63,7 @@ py::dict dict_of(const std::vector<SurfaceMean>& surfaces, std::size_t further_c
   using Row = SurfaceMean;
   return py::dict(
       "building"_a = buildings_of(surfaces),
-      "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }),
+      "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }), "surface_id"_a = ids_of(surfaces),
       "kind"_a = column<std::uint8_t>(surfaces, [](const Row& s) { return s.kind; }),
       "azimuth_deg"_a = column<double>(surfaces, [](const Row& s) { return s.azimuth.degrees(); }),
       "tilt_deg"_a = column<double>(surfaces, [](const Row& s) { return s.tilt.degrees(); }),

@@ -35,7 +35,7 @@
 #include "farlod/package.hpp"
 #include "farlod/run.hpp"
 #include "farlod/surfaces.hpp"
-#include "results/city/enriched_city_file.hpp"
+#include "results/city/enriched_city_files.hpp"
 #include "results/picture/error_map.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/table/sky_table_csv.hpp"
@@ -187,10 +187,10 @@ void KeptWork::finish() {
   answers_.reset();
 }
 
-/// The run of --city: writes the file that the package was made of again, with the values as attributes of its buildings and
-/// semantic surfaces. Throws InputError before the work where the file is another one, and what the library throws.
+/// The run of --city: writes the file, or the files, that the package was made of again, with the values as attributes of its
+/// buildings and semantic surfaces. Throws InputError before the work where the file is another one, and what the library throws.
 WrittenRun write_enriched_city(const Package& package, const SvfOptions& options, const RunSettings& run) {
-  const EnrichedCityFile city(
+  const EnrichedCityFiles city(
       package, options.package.string(), options.city_file,
       {quantity_name(options.evaluation.weight), BoundsColumns::no, column_descriptions_of(options.evaluation.further),
        options.surfaces.irradiation_threshold_kwh_m2 ? ThresholdColumns::yes : ThresholdColumns::no});
@@ -200,7 +200,7 @@ WrittenRun write_enriched_city(const Package& package, const SvfOptions& options
   const SurfaceMeans means =
       evaluate_surfaces(package, options.surfaces, options.evaluation, histogram.is_wanted() ? count : OnSurfacePoints{}, run);
   WrittenRun written{means.summary};
-  written.output_bytes = static_cast<double>(std::filesystem::file_size(options.city_file));
+  written.output_bytes = city.bytes();
   if (!options.writes()) return written;
   require_answers(written.summary, options, package.description());
   written.files = {options.output};

@@ -122,8 +122,8 @@ void add_output_options(CLI::App& app, RawOptions& raw) {
       ->group("Output");
   app.add_option(
          "--city", raw.city,
-         "With --surfaces: the CityGML, CityJSON or CityJSONSeq file that the package was made of. It is written again as -o, "
-         "with the values as attributes of its buildings and surfaces")
+         "With --surfaces: the CityGML, CityJSON or CityJSONSeq file that the package was made of, or the folder of such files. "
+         "They are written again as -o (of a folder: into that folder), with the values as attributes of buildings and surfaces")
       ->type_name(file_value)
       ->group("Output");
 }
@@ -274,8 +274,10 @@ std::string city_endings() {
 void resolve_city(const RawOptions& raw, SvfOptions& o) {
   o.city_file = raw.city;
   if (o.source != ReceiverSource::surfaces) throw CLI::ValidationError("--city", "it goes with --surfaces");
-  if (!city_format_of(o.output))
-    throw CLI::ValidationError("-o", "with --city the output is a city file, too: choose a name that ends in " + city_endings());
+  if (o.city_is_folder() == city_format_of(o.output).has_value())
+    throw CLI::ValidationError(
+        "-o", o.city_is_folder() ? "--city is a folder, and so is the output: choose the name of a folder"
+                                 : "with --city the output is a city file, too: choose a name that ends in " + city_endings());
   if (o.evaluation.bounds)
     throw CLI::ValidationError("--bounds", "the attributes of a city file (--city) have no room for bounds");
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "app/light_options.hpp"
@@ -37,7 +38,7 @@ struct SvfOptions {
   std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;
-  std::filesystem::path city_file;  ///< that comes back with the values of surfaces; empty: tables are written
+  std::filesystem::path city_file;  ///< or a folder: what comes back with the values of surfaces; empty: tables are written
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;
@@ -54,6 +55,10 @@ struct SvfOptions {
   std::optional<Shard> shard;
   RunOptions run;
 
+  [[nodiscard]] bool city_is_folder() const {
+    std::error_code error;
+    return std::filesystem::is_directory(city_file, error);
+  }
   /// Estimates write nothing, and shards leave that to whoever merges them.
   [[nodiscard]] bool writes() const { return !evaluation.dry_run && !shard; }
   /// Whether the answers of a run that is interrupted are kept: single places and estimates take no time.

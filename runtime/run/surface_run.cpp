@@ -1,12 +1,19 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "base/run_settings.hpp"
 #include "evaluate/quantity_table.hpp"
+#include "farlod/building_origin.hpp"
 #include "farlod/error.hpp"
 #include "farlod/surfaces.hpp"
+#include "package/sources_file.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_receivers.hpp"
 #include "run/facing.hpp"
@@ -170,6 +177,25 @@ void check(const SurfaceSettings& surfaces, const Quantities& quantities) {
     throw InvalidArgument("irradiation_threshold_kwh_m2 is one of irradiation: ask for that, too (further.irradiation)");
 }
 
+void name_surfaces(const std::vector<SurfaceMean*>& surfaces, const std::vector<SurfaceIds>& ids) {
+  for (SurfaceMean* surface : surfaces) {
+    const auto of = std::ranges::upper_bound(ids, surface->surface, {}, &SurfaceIds::end);
+    if (of == ids.end() || surface->surface < of->begin) continue;
+    surface->id = of->id.front() == '\0' ? surface->building + of->id.substr(1) : of->id;
+  }
+}
+
+/// Names surfaces as their city file does. A row of several buildings that share an id may be of any of them, and gets no name.
+void name_surfaces(SurfaceMeans& means, const SourcesFile& sources) {
+  std::unordered_map<std::string_view, std::vector<SurfaceMean*>> of_building;
+  for (SurfaceMean& surface : means.surfaces) of_building[surface.building].push_back(&surface);
+  for (const BuildingMean& building : means.buildings) {
+    if (building.building_numbers.size() != 1) continue;
+    const std::optional<BuildingOrigin> origin = sources.find(building.building_numbers.front());
+    if (origin) name_surfaces(of_building[building.building], origin->ids);
+  }
+}
+
 }  // namespace
 
 SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& surfaces, const EvaluationSettings& evaluation,
@@ -180,10 +206,15 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   const PackageReader& reader = in_use.reader();
   const std::vector<Cell> cells = along_hilbert_curve(all_cells(reader.grid().cells), reader.grid().block_edge);
   const double memory_bytes = require_memory(reader.manifest(), settings, needs_of(reader, settings.sky, cells));
+  // Before the work: what is damaged is told at once
+  std::optional<SourcesFile> sources;
+  if (reader.manifest().sources) sources.emplace(reader.folder(), reader.manifest());
   SurfaceCells surface_cells(reader, cells, surfaces, settings, on_points);
   EvaluationSummary summary = evaluate_cells(in_use, settings, surface_cells);
   if (settings.run.shard) return {{}, {}, std::move(summary)};
-  return surface_cells.means(summary.estimate ? with_memory(std::move(summary), memory_bytes) : std::move(summary));
+  SurfaceMeans means = surface_cells.means(summary.estimate ? with_memory(std::move(summary), memory_bytes) : std::move(summary));
+  if (sources) name_surfaces(means, *sources);
+  return means;
 }
 
 }  // namespace farlod

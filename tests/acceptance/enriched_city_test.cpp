@@ -312,7 +312,9 @@ TEST_F(SourcesOfPackage, AreChecked) {
   EXPECT_EQ(checked.exit_code, exit_damaged_package);
   EXPECT_THAT(checked.out + checked.err, testing::HasSubstr("sources.bin"));
   expect_refusal(enrich("--city town.gml -o b.gml"), exit_damaged_package, {"sources.bin", "damaged"});
-  EXPECT_EQ(enrich("-o b.csv").exit_code, exit_done) << "who does not ask for places does not read them";
+  expect_refusal(enrich("-o b.csv"), exit_damaged_package, {"sources.bin", "damaged"});
+  EXPECT_EQ(folder.run("farlod-svf a.farlod -o b.asc --grid 20").exit_code, exit_done)
+      << "who asks for no surfaces does not read them";
 }
 
 TEST_F(SourcesOfPackage, OlderPackagesDoNotSayThem) {
@@ -326,9 +328,9 @@ TEST_F(SourcesOfPackage, OlderPackagesDoNotSayThem) {
   EXPECT_EQ(enrich("-o b.csv").exit_code, exit_done);
 }
 
-TEST_F(SourcesOfPackage, APackedFileHasNone) {
+TEST_F(SourcesOfPackage, APackedFileHasIdsAlone) {
   folder.must("gzip -k town.gml && farlod-pack town.gml.gz -o a.farlod --quiet --crs EPSG:25832");
-  EXPECT_FALSE(folder.has("a.farlod/sources.bin"));
+  EXPECT_TRUE(folder.has("a.farlod/sources.bin"));
   expect_refusal(enrich("--city town.gml.gz -o b.gml"), exit_unusable_input, {"town.gml.gz has no places", "archive"});
   expect_refusal(enrich("--city town.gml -o b.gml"), exit_unusable_input, {"town.gml is not a file that a.farlod was made of"});
 }

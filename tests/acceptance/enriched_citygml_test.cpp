@@ -27,8 +27,10 @@ version_3 = rb'<(?P<c>[\w.]*:?)genericAttribute><(?P<h>[\w.]+:)DoubleAttribute(?
     rb'</(?P=h)name><(?P=h)value>[0-9.]+</(?P=h)value></(?P=h)DoubleAttribute></(?P=c)genericAttribute>'
 rows = collections.defaultdict(list)
 for row in csv.DictReader(open('a.surfaces.csv')): rows[row['building']].append(row)
+named = {building: list(of_building) for building, of_building in rows.items()}
 buildings = {row['building']: row for row in csv.DictReader(open('a.buildings.csv'))}
-found = collections.Counter(rows=sum(map(len, rows.values())), buildings=0, surfaces=0, single=0, of_one_polygon=0, areas=0, wrong=0, lit=0)
+found = collections.Counter(rows=sum(map(len, rows.values())), buildings=0, surfaces=0, single=0, of_one_polygon=0, areas=0, wrong=0, lit=0,
+    named=0, misnamed=0, unnamed=0)
 found['same'] = re.sub(version_2 + b'|' + version_3, b'', after) == before
 
 def local(element): return element.tag.split('}')[1]
@@ -68,6 +70,11 @@ def compare_surface(surface, values, building):
     if len(polygons) != 1: return
     found['of_one_polygon'] += 1
     found['wrong'] += not same
+    called = id_of(surface) or id_of(polygons[0])
+    own = [row for row in named[building] if row['surface_id'] == called]
+    found['named'] += len(own) == 1 and [own[0][k] for k in of_table] == mine[:5]
+    found['misnamed'] += len(own) == 1 and [own[0][k] for k in of_table] != mine[:5]
+    found['unnamed'] += not own and called is not None
     area = area_of(polygons[0])
     found['areas'] += abs(float(mine[3]) + float(mine[4]) - area) <= 0.02 * area + 0.05
 
@@ -126,6 +133,10 @@ TEST_P(EnrichedRealCityGml, HasTheValuesOfTheTables) {
   const nlohmann::json found = enriched(data(GetParam().file));
   EXPECT_TRUE(found.at("same").get<bool>());
   EXPECT_EQ(found.at("wrong"), 0);
+  // The id in the table leads to the surface with the values of its row
+  EXPECT_EQ(found.at("misnamed"), 0);
+  EXPECT_EQ(found.at("unnamed"), 0);
+  EXPECT_GT(found.at("named"), GetParam().single / 2);
   EXPECT_EQ(found.at("buildings"), found.at("buildings_of_run"));
   EXPECT_EQ(found.at("surfaces"), GetParam().surfaces);
   EXPECT_EQ(found.at("single"), GetParam().single);

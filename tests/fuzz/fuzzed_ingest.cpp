@@ -28,10 +28,15 @@ void expect_clean_ring(std::span<const Point3d> ring) {
 /// Places are in the file, and what is written around attributes there is known.
 void expect_origin_in_file(const SourceCity& source, const Building& building, std::size_t file_bytes) {
   const std::span<const std::uint8_t> bytes = source.city.origin_of(building);
-  FARLOD_EXPECTS(bytes.empty() != source.placed.has_value());
-  if (bytes.empty()) return;
+  if (bytes.empty()) {
+    FARLOD_EXPECTS(!source.placed.has_value());
+    return;
+  }
   const auto origin = package::origin_from(bytes);
   FARLOD_EXPECTS(origin.has_value());
+  FARLOD_EXPECTS(source.placed.has_value() || !origin->ids.empty());
+  for (const SurfaceIds& ids : origin->ids) FARLOD_EXPECTS(ids.begin < ids.end && !ids.id.empty());
+  if (!source.placed) return;
   for (const auto* places : {&origin->objects, &origin->semantics})
     for (const AttributePlace& place : *places)
       FARLOD_EXPECTS(place.at <= file_bytes && place.form <= source.placed->forms.size());

@@ -210,7 +210,9 @@ TEST(Layout, SourcesAreDocumented) {
   EXPECT_DOCUMENTED(SourcesHeader, building_count);
   EXPECT_DOCUMENTED(SourcesHeader, file_bytes);
   EXPECT_DOCUMENTED(SourcesHeader, reserved);
-  EXPECT_NE(chapter("SourcesHeader").find("| 8 | `version` | u32 | " + std::to_string(sources_version) + " |"),
+  EXPECT_NE(chapter("SourcesHeader")
+                .find("| 8 | `version` | u32 | " + std::to_string(sources_version) + ", or " +
+                      std::to_string(sources_version_with_ids) + " where a surface has an id |"),
             std::string::npos);
   EXPECT_NE(chapter("Versions").find("* **" + std::to_string(format_version) + "** may have [sources.bin]"), std::string::npos);
 }

@@ -30,12 +30,13 @@ class SmallSources : public testing::Test {
   }
 
   /// Writes buildings with these origins; those without are of the file that has no places.
-  void write(const std::vector<BuildingOrigin>& origins) {
+  /// Where `all_of_file`, all buildings with an origin are of the file with places.
+  void write(const std::vector<BuildingOrigin>& origins, bool all_of_file = true) {
     TileSources sources;
     for (const BuildingOrigin& origin : origins) {
       std::vector<std::uint8_t> bytes;
       if (!origin.objects.empty()) append_origin(bytes, origin);
-      sources.buildings.push_back({origin.objects.empty() ? 0U : 1U, bytes.size()});
+      sources.buildings.push_back({origin.objects.empty() || !all_of_file ? 0U : 1U, bytes.size()});
       sources.origins.append(std::span<const std::uint8_t>(bytes));
     }
     const std::vector<std::optional<SourceOfPackage>> files{std::nullopt,
@@ -84,6 +85,32 @@ TEST_F(SmallSources, ComeBack) {
   EXPECT_EQ(origins, (std::vector<std::pair<std::uint32_t, BuildingOrigin>>{{0, first}, {2, second}}));
 }
 
+TEST_F(SmallSources, IdsMakeAVersionOfTheirOwn) {
+  BuildingOrigin named = first;
+  named.ids = {{0, 2, "UUID_cddb67ba-46f5-479e-bda0-4563cd4835bf"}, {5, 6, std::string(1, '\0') + "_wall"}};
+  write({named, {}, second});
+  const Manifest manifest = manifest_of_this();
+  const SourcesFile sources(PackageFolder(small.folder()), manifest);
+  EXPECT_EQ(static_cast<int>(whole[8]), static_cast<int>(sources_version_with_ids));
+  EXPECT_EQ(sources.find(0), named);
+  EXPECT_EQ(sources.find(1), std::nullopt);
+  EXPECT_EQ(sources.find(2), second);
+  EXPECT_EQ(sources.find(3), std::nullopt);
+  EXPECT_THAT(damage_with(8, sources_version), HasSubstr("its version has no ids"));
+}
+
+TEST_F(SmallSources, BuildingsOfFilesWithoutPlacesHaveIds) {
+  BuildingOrigin named{{{}}, {}, {}, {{0, 1, "a"}}};
+  write({named, {}, named}, false);
+  const SourcesFile sources(PackageFolder(small.folder()), manifest_of_this());
+  EXPECT_EQ(sources.find(0), named);
+  EXPECT_EQ(sources.find(1), std::nullopt);
+  EXPECT_EQ(sources.find(2), named);
+  sources.visit([](std::uint32_t, std::size_t, const BuildingOrigin&) { ADD_FAILURE() << "it has no places"; });
+}
+
+TEST_F(SmallSources, WithoutIdsAreAsTheyWere) { EXPECT_EQ(static_cast<int>(whole[8]), static_cast<int>(sources_version)); }
+
 TEST_F(SmallSources, EachByteIsChecked) {
   const Manifest manifest = manifest_of_this();
   const auto damage = [&] { return damage_met_by([&] { (void)SourcesFile(PackageFolder(small.folder()), manifest); }); };
@@ -125,7 +152,7 @@ TEST_F(SmallSources, WhatBreaksARuleIsDamage) {
 
 TEST_F(SmallSources, AnotherVersionIsRefused) {
   Bytes bytes = whole;
-  const std::uint32_t version = sources_version + 1;
+  const std::uint32_t version = sources_version_with_ids + 1;
   std::memcpy(bytes.data() + 8, &version, sizeof version);
   write_bytes(path(), bytes);
   EXPECT_THROW((void)SourcesFile(PackageFolder(small.folder()), manifest_of_this()), PackageUnusable);
@@ -157,6 +184,34 @@ TEST(SourcesWriter, FilesWithoutPlacesHaveNone) {
 
 // How a building of the file is written
 
+/// Ids as programs make them, and some that only look like it.
+std::string random_id(std::mt19937_64& random) {
+  constexpr std::string_view digits = "0123456789abcdefABCDEF";
+  std::string id(random() % 3 == 0 ? "UUID_" : random() % 2 == 0 ? std::string(1, '\0') : "x");
+  const std::uint64_t kinds = random() % 3 == 0 ? 22 : 16, first = random() % 4 == 0 ? 10 : 0;
+  for (const std::size_t length : {8U, 4U, 4U, 4U, 12U}) {
+    for (std::size_t n = 0; n < length; ++n) {
+      const std::uint64_t digit = random() % kinds;
+      id += digits[first > 0 && digit >= 10 ? digit + (kinds == 16 ? 6 : 0) : digit];
+    }
+    if (random() % 40 != 0) id += '-';
+  }
+  if (random() % 4 != 0) id.pop_back();
+  if (random() % 3 == 0) id += "_7";
+  return random() % 4 == 0 ? "wall " + std::to_string(random() % 100) : id;
+}
+
+std::vector<SurfaceIds> random_ids(std::mt19937_64& random) {
+  std::vector<SurfaceIds> ids;
+  std::uint32_t end = 0;
+  for (std::uint64_t n = random() % 6; n > 0; --n) {
+    const std::uint32_t begin = end + static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 1000 : 0);
+    end = begin + 1 + static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 100 : 0);
+    ids.push_back({begin, end, random() % 4 == 0 && !ids.empty() ? ids.back().id : random_id(random)});
+  }
+  return ids;
+}
+
 /// A building drawn at random: numbers may be any that the types hold.
 BuildingOrigin random_origin(std::mt19937_64& random) {
   const auto below = [&](std::uint64_t count) { return random() % count; };
@@ -170,12 +225,13 @@ BuildingOrigin random_origin(std::mt19937_64& random) {
   add_places(origin.semantics, below(6));
   std::uint32_t surface = 0;
   for (std::uint64_t n = below(20); n > 0; --n) {
-    surface += static_cast<std::uint32_t>(below(20) == 0 ? below(1'000'000'000) : below(3));
+    surface += static_cast<std::uint32_t>(below(20) == 0 ? below(200'000'000) : below(3));
     SurfaceOrigin& added = origin.surfaces.emplace_back();
     added.surface = surface;
     added.object = static_cast<std::uint32_t>(below(origin.objects.size()));
     if (!origin.semantics.empty() && below(3) > 0) added.semantics = static_cast<std::uint32_t>(below(origin.semantics.size()));
   }
+  origin.ids = random_ids(random);
   return origin;
 }
 
@@ -194,7 +250,13 @@ TEST(SourcesLayout, BytesThatAreCutOrGoOnAreNoOrigin) {
   for (int n = 0; n < 500; ++n) {
     std::vector<std::uint8_t> bytes;
     append_origin(bytes, random_origin(random));
-    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(origin_from(std::span(bytes).first(size)).has_value());
+    BuildingOrigin without_ids = *origin_from(bytes);
+    without_ids.ids.clear();
+    std::vector<std::uint8_t> shorter;
+    append_origin(shorter, without_ids);
+    // Where ids could begin, an origin without ids ends
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_EQ(origin_from(std::span(bytes).first(size)).has_value(), size == shorter.size());
     bytes.push_back(0);
     EXPECT_FALSE(origin_from(bytes).has_value());
   }
@@ -230,6 +292,22 @@ TEST(SourcesLayout, WhatFollowsTakesOneByte) {
   std::vector<std::uint8_t> bytes;
   append_origin(bytes, origin);
   EXPECT_LE(bytes.size(), 10U + 2U * 100U + 100U);
+}
+
+TEST(SourcesLayout, AUuidTakesItsBytesAndTwoOfItsPlace) {
+  BuildingOrigin origin{{{1000, 1}}, {}, {}, {}};
+  std::vector<std::uint8_t> before, bytes;
+  append_origin(before, origin);
+  constexpr std::uint32_t count = 100;
+  std::mt19937_64 random(4);
+  for (std::uint32_t n = 0; n < count; ++n) {
+    std::string id = "UUID_00000000-0000-0000-0000-000000000000";
+    for (char& digit : id)
+      if (digit == '0') digit = "0123456789abcdef"[random() % 16];
+    origin.ids.push_back({n, n + 1, id});
+  }
+  append_origin(bytes, origin);
+  EXPECT_LE(bytes.size(), before.size() + 1U + 5U + (16U + 2U) * count + count / 4U);
 }
 
 TEST(SourcesLayout, NumbersOfAllSizesComeBack) {

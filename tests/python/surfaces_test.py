@@ -31,7 +31,8 @@ def test_same_table_as_the_program(village: farlod.City, tmp_path: Path) -> None
     expected = pandas.read_csv(tmp_path / "walls.surfaces.csv").sort_values(["building", "surface"], ignore_index=True)
     walls = village.surfaces("walls", 2.0).sort_values(["building", "surface"], ignore_index=True)
     assert walls.building.tolist() == expected.building.tolist() and walls.surface.tolist() == expected.surface.tolist()
-    for column in expected.columns.difference(["building", "surface", "kind"]):
+    assert walls.surface_id.tolist() == expected.surface_id.tolist()
+    for column in expected.columns.difference(["building", "surface", "surface_id", "kind"]):
         np.testing.assert_allclose(walls[column], expected[column], atol=1e-3, equal_nan=True, err_msg=column)
     assert set(walls.kind) == {"wall"}
 

@@ -44,14 +44,23 @@ def run(*command: object, **keywords: object) -> str:
 
 @pytest.fixture(scope="module")
 def wheels(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    # From a copy, so that nothing is left in the sources
     copy = tmp_path_factory.mktemp("sources")
     shutil.copytree(PYTHON, copy / "python", ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__", ".mypy_cache"))
     shutil.copy(SOURCES / "CMakeLists.txt", copy)
     target = tmp_path_factory.mktemp("wheels")
+    before = sorted(copy.rglob("*"))
     for folder in ("python", "python/preprocess"):
         run(sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps", "-w", target, copy / folder)
+    left = [path for path in copy.rglob("*") if path not in before and "__pycache__" not in path.parts]
+    assert left == [], "the sources are to stay as they are"
     return sorted(target.glob("*.whl"))
+
+
+def test_a_python_without_wheel_is_told_what_to_do() -> None:
+    probe = "import build_with_cmake as b, importlib.util as u; u.find_spec = lambda name: None; b.require_wheel()"
+    done = subprocess.run([sys.executable, "-c", probe], cwd=PYTHON, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "/usr/bin/python3 -m venv --system-site-packages" in done.stderr and "Traceback" not in done.stderr
 
 
 def test_wheels_have_what_they_need_and_their_own_licence(wheels: list[Path]) -> None:

@@ -136,8 +136,16 @@ class BuildingAssembler {
     if (p.use->lod == 0) return add_footprint(rings, *p.use);
     if (p.resolved.is_reversed)
       for (Ring& ring : rings) std::reverse(ring.begin(), ring.end());
-    builder_.add_polygon(rings, RingEnd::repeats_first,
-                         {.kind = p.use->kind, .part = p.use->part, .surface = {}, .name = polygon.id, .origin = origin_of(p)});
+    builder_.add_polygon(
+        rings, RingEnd::repeats_first,
+        {.kind = p.use->kind, .part = p.use->part, .surface = {}, .name = polygon.id, .origin = origin_of(p), .id = id_of(p)});
+  }
+
+  /// Analysts know the semantic surface, which databases keep; a polygon is called where that has no name.
+  std::string_view id_of(const WantedPolygon& p) const {
+    const PolygonOrigin origin = origin_of(p);
+    const std::string_view semantic = origin.semantics ? std::string_view(building_.semantic_ids[*origin.semantics]) : "";
+    return semantic.empty() ? std::string_view(p.resolved.polygon->id) : semantic;
   }
 
   /// What many objects share is of none of their semantic surfaces.

@@ -66,6 +66,7 @@ struct CityGmlBuilding {
   std::vector<std::optional<double>> measured_height_m{std::nullopt};  ///< of the building and of each part
   std::map<std::string, std::size_t> unread;                           ///< what is not read, with its number
   PlacesOfBuilding places;
+  std::vector<std::string> semantic_ids;  ///< of places.semantics; empty where one has none
 
   /// Counts something that is not read. After a few kinds, all others are counted as one.
   void add_unread(std::string what);

@@ -186,6 +186,7 @@ void CityGmlParser::open_object(const XmlElement& element) {
 void CityGmlParser::open_semantics(const XmlElement& element) {
   origins_.push_back({origins_.back().object, static_cast<std::uint32_t>(building_.places.semantics.size())});
   building_.places.semantics.emplace_back();
+  building_.semantic_ids.emplace_back(element.id);
   places_.open(element);
 }
 
@@ -268,6 +269,7 @@ void CityGmlParser::end_building() {
   close_place();
   take_(building_);
   building_.places = {};
+  building_.semantic_ids.clear();
   building_.uses.clear();
   building_.unread.clear();
   building_.placements.clear();

@@ -222,15 +222,19 @@ class CityJsonAssembler {
         continue;
       }
       if (!is_alone) fresh.push_back({*rings, {}});
-      std::optional<std::uint32_t> surface;
-      if (shape.geometry->lod < 1.0)
-        add_footprint(*rings, shape);
-      else
-        surface = builder_.add_polygon(*rings, RingEnd::implied,
-                                       {.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}, .origin = origin});
+      const std::optional<std::uint32_t> surface = add_polygon(*rings, polygon, shape, origin);
       if (!is_alone) fresh.back().surface = surface;
     }
     for (EarlierPolygon& polygon : fresh) note_seen(std::move(polygon));
+  }
+
+  /// What many objects share, a template, has no id that tells them apart.
+  std::optional<std::uint32_t> add_polygon(Rings& rings, const CityJsonPolygon& polygon, const Shape& shape,
+                                           PolygonOrigin origin) {
+    if (shape.geometry->lod < 1.0) return add_footprint(rings, shape), std::nullopt;
+    const std::string id = shape.instance ? std::string() : surface_id(*shape.object, *shape.geometry, polygon);
+    const PolygonTraits traits{.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}, .origin = origin, .id = id};
+    return builder_.add_polygon(rings, RingEnd::implied, traits);
   }
 
   /// Adds the semantic surfaces of a geometry to those of the building. Returns the row of the first.

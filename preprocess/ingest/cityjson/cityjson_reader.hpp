@@ -116,7 +116,8 @@ struct CityJsonGeometry {
   std::string type;
   double lod = 0.0;
   std::vector<CityJsonPolygon> polygons;
-  std::optional<CityJsonInstance> instance;  ///< if set, the polygons are those of its template
+  std::optional<CityJsonInstance> instance;    ///< if set, the polygons are those of its template
+  std::vector<std::string> semantic_ids = {};  ///< by row of `semantics.surfaces`; empty where one has none
 };
 
 struct CityJsonObject {
@@ -127,6 +128,15 @@ struct CityJsonObject {
   std::string malformed;                      ///< how it breaks the format; it has no geometries then
   std::optional<CityJsonPlaces> places = {};  ///< in a file into which attributes can be inserted
 };
+
+/// The id of a polygon's semantic surface. CityJSON asks for none: where there is none, the id of the object and the row, as in
+/// "B1#3". Empty for a polygon without semantics.
+[[nodiscard]] inline std::string surface_id(const CityJsonObject& object, const CityJsonGeometry& geometry,
+                                            const CityJsonPolygon& polygon) {
+  if (!polygon.semantics) return {};
+  const std::string& id = geometry.semantic_ids[*polygon.semantics];
+  return id.empty() ? object.id + '#' + std::to_string(*polygon.semantics) : id;
+}
 
 /// The templates of a file, which all its objects may use.
 struct CityJsonTemplates {

@@ -36,10 +36,13 @@ double lod_from(const json& geometry) {
   return std::isfinite(value) ? value : 0.0;
 }
 
-std::vector<SurfaceKind> kinds_from(const json& geometry) {
+std::vector<SurfaceKind> kinds_from(const json& geometry, std::vector<std::string>& ids) {
   std::vector<SurfaceKind> kinds;
-  for (const json& surface : member_of(member_of(geometry, "semantics"), "surfaces"))
+  for (const json& surface : member_of(member_of(geometry, "semantics"), "surfaces")) {
     kinds.push_back(kind_of_surface_name(surface.value("type", "")));
+    const json& id = member_of(surface, "id");
+    ids.push_back(id.is_string() ? id.get<std::string>() : std::string());
+  }
   return kinds;
 }
 
@@ -87,7 +90,7 @@ CityJsonGeometry geometry_from(const json& j) {
   } else if (const std::optional<int> nesting = nesting_of(geometry.type)) {
     // The numbers of the semantics of the surfaces are nested like the boundaries
     const json& semantics = member_of(member_of(j, "semantics"), "values");
-    add_polygons(j.at("boundaries"), semantics, *nesting, kinds_from(j), geometry.polygons);
+    add_polygons(j.at("boundaries"), semantics, *nesting, kinds_from(j, geometry.semantic_ids), geometry.polygons);
   }
   return geometry;
 }

@@ -88,6 +88,7 @@ void CityModelBuilder::begin_building(std::string id, HeightReference height_ref
   at_repeating_ring_ = at_largest_gap_ = first_vertex_ = std::nullopt;
   added_.clear();
   origins_.clear();
+  surface_ids_.clear();
   object_of_surface_.clear();
   problems_before_ = report_.problems().size();
   city_.begin_building(id_, height_reference, 0, foot);
@@ -175,6 +176,7 @@ std::optional<std::uint32_t> CityModelBuilder::add_polygon(Rings& rings, RingEnd
   if (clean_polygon(rings, end, traits.name)) {
     surface = add_once(rings, traits);
     add_origin(*surface, traits.origin);
+    note_id(*surface, traits.id);
   }
   ++next_surface_;
   return surface;
@@ -286,11 +288,39 @@ package::BuildingOrigin CityModelBuilder::origin_among(const PlacesOfBuilding& p
   return origin;
 }
 
+void CityModelBuilder::note_id(std::uint32_t surface, std::string_view id) {
+  if (id.empty() || id.size() > package::most_id_bytes) return;
+  std::string kept(id);
+  // Most ids that a program has made begin with that of the building, which the package has
+  if (!id_.empty() && id.starts_with(id_)) kept.replace(0, id_.size(), 1, '\0');
+  surface_ids_.push_back({surface, surface + 1, std::move(kept)});
+}
+
+std::vector<package::SurfaceIds> CityModelBuilder::take_ids() {
+  // A polygon that the file repeats comes later than what it repeats, whose id stays
+  std::stable_sort(surface_ids_.begin(), surface_ids_.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+  std::vector<package::SurfaceIds> ids;
+  for (package::SurfaceIds& next : surface_ids_) {
+    if (!ids.empty() && next.begin < ids.back().end) continue;
+    if (!ids.empty() && next.begin == ids.back().end && next.id == ids.back().id)
+      ids.back().end = next.end;
+    else
+      ids.push_back(std::move(next));
+  }
+  return ids;
+}
+
 void CityModelBuilder::end_building(std::string_view missing, const PlacesOfBuilding* places) {
   report_repairs();
-  if (places != nullptr && city_.buildings().back().facet_count > 0) {
+  if (city_.buildings().back().facet_count > 0 && (places != nullptr || !surface_ids_.empty())) {
+    // The building itself has no place in a file that has none
+    PlacesOfBuilding nowhere;
+    nowhere.objects.emplace_back();
+    if (places == nullptr) origins_.clear();
+    package::BuildingOrigin origin = origin_among(places != nullptr ? *places : nowhere);
+    origin.ids = take_ids();
     std::vector<std::uint8_t> bytes;
-    package::append_origin(bytes, origin_among(*places));
+    package::append_origin(bytes, origin);
     city_.set_origin(bytes);
   }
   if (city_.buildings().back().facet_count == 0) {

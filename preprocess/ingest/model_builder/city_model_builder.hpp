@@ -56,6 +56,7 @@ struct PolygonTraits {
   std::optional<std::uint32_t> surface;  ///< empty: the polygon is a surface by itself
   std::string_view name;                 ///< in the report; empty: its number is used
   PolygonOrigin origin = {};
+  std::string_view id = {};  ///< in the file, of its semantic surface or its own; empty: none
 };
 
 /// Whether a builder reports an id that it has met before, or leaves that to the builder that it is appended to.
@@ -83,7 +84,7 @@ class CityModelBuilder {
   /// Reports a problem of something that is not a building.
   void add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position = {});
   /// Ends the current building. If nothing of it is usable, it is removed, and `missing` is the reason that the reader knows.
-  /// `places`: of a file into which attributes can be inserted.
+  /// `places`: of a file into which attributes can be inserted. Ids of surfaces are kept without places, too.
   void end_building(std::string_view missing = "it has no surfaces", const PlacesOfBuilding* places = nullptr);
   /// Adds the buildings and the problems of a builder of the next segment of the file, which leaves repeated ids to this one and
   /// has a report of its own. City and report become those of a single builder of both segments.
@@ -104,6 +105,9 @@ class CityModelBuilder {
   std::uint32_t add_once(const Rings& rings, const PolygonTraits& traits);
   void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part, std::uint32_t object = 0);
   [[nodiscard]] package::BuildingOrigin origin_among(const PlacesOfBuilding& places);
+  void note_id(std::uint32_t surface, std::string_view id);
+  /// Those of consecutive surfaces together.
+  [[nodiscard]] std::vector<package::SurfaceIds> take_ids();
   /// Whether the base is on the Earth and below the top; reports it if not. The sum of a large base and a small height may be the
   /// base itself.
   [[nodiscard]] bool leaves_room_for_walls(double base_m, double top_m);
@@ -131,6 +135,7 @@ class CityModelBuilder {
   PolygonDeduplicator added_{SamePolygon::rings};
   // What is known of the current building
   std::vector<package::SurfaceOrigin> origins_;   ///< rows of all places; what is not worth noting down is not there
+  std::vector<package::SurfaceIds> surface_ids_;  ///< one for each surface that has an id
   std::vector<std::uint32_t> object_of_surface_;  ///< by number; of those beyond its end, the building itself
   std::size_t repeated_vertices_ = 0, open_rings_ = 0;
   double largest_gap_ = 0.0;

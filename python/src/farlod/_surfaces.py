@@ -26,6 +26,8 @@ def _columns(table: Mapping[str, Any], names: Mapping[str, str], further: list[s
     columns["kind"] = KINDS[table["kind"]]
     columns.update({ours: table[theirs] for ours, theirs in names.items()})
     columns.update({name: table["further"][:, n] for n, name in enumerate(further)})
+    if any(table.get("surface_id", ())):
+        columns["surface_id"] = np.array([text or None for text in table["surface_id"]], dtype=object)
     return columns
 
 
@@ -67,7 +69,7 @@ def frame(
         result = _of_points(found["points"], evaluation, crs)
     else:
         means = found["means"]
-        names = {name: name for name in means if name not in ("building", "surface", "kind", "further")}
+        names = {name: name for name in means if name not in ("building", "surface", "surface_id", "kind", "further")}
         if evaluation.light is None:
             del names["irradiation_kwh"]
         if irradiation_threshold is None:

@@ -45,6 +45,10 @@ BuildingAreas areas_of(const BuildingMean& b) {
   return areas;
 }
 
+bool have_ids(std::span<const SurfaceMean> surfaces) {
+  return std::ranges::any_of(surfaces, [](const SurfaceMean& surface) { return !surface.id.empty(); });
+}
+
 std::vector<AreaColumn> area_columns_of(const SurfaceMean& surface, const AnswerColumns& columns) {
   std::vector<AreaColumn> list;
   add_means(surface.further_mean, "_mean", columns, list);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct BuildingAreas {
   std::optional<double> covered_roofs_m2, covered_walls_m2;  ///< without one
 };
 [[nodiscard]] BuildingAreas areas_of(const BuildingMean& building);
+
+/// Whether tables of these surfaces have the column surface_id: where one of them has an id.
+[[nodiscard]] bool have_ids(std::span<const SurfaceMean> surfaces);
 
 /// The columns that follow those of svf, with the values of a surface:
 ///   (1) COLUMN_mean of each further column;

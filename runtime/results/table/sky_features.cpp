@@ -163,6 +163,8 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
   add_fields(layer, FieldType::real, {quantity + "_mean", quantity + "_min", quantity + "_max", "covered_area_m2"});
   for (const AreaColumn& column : area_columns_of(SurfaceMean{}, frame.columns))
     add_fields(layer, FieldType::real, {column.name});
+  const bool with_ids = have_ids(rows);
+  if (with_ids) add_fields(layer, FieldType::text, {"surface_id"});
   writer.begin(layer);
   for (const SurfaceMean& r : rows) {
     FeatureRow feature{
@@ -172,6 +174,7 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
          millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata), share(r.svf_mean),
          share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
     for (const AreaColumn& column : area_columns_of(r, frame.columns)) feature.values.push_back(number(column));
+    if (with_ids) feature.values.push_back(r.id.empty() ? FieldValue() : std::string_view(r.id));
     if (shapes != nullptr) feature.polygons = shapes->of(r.building, r.surface);
     writer.add(feature);
   }

@@ -70,7 +70,6 @@ void add_surface_point(const SurfacePoint& r, CsvText& text) {
   text.millimetres(r.azimuth.degrees()).millimetres(r.tilt.degrees()).millimetres(r.area_m2);
 }
 
-/// The rest of a row.
 void add_area_columns(const std::vector<AreaColumn>& list, CsvText& text) {
   for (const AreaColumn& column : list) {
     if (column.form == NumberForm::rounded && !std::isnan(column.value))
@@ -78,14 +77,15 @@ void add_area_columns(const std::vector<AreaColumn>& list, CsvText& text) {
     else
       text.number(static_cast<float>(column.value));
   }
-  text.end_row();
 }
 
-void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& text) {
+void add_surface(const SurfaceMean& r, const AnswerColumns& columns, bool with_id, CsvText& text) {
   text.field(r.building).whole(r.surface).field(word_for(surface_kind_words, r.kind));
   text.millimetres(r.azimuth.degrees()).millimetres(r.tilt.degrees()).millimetres(r.area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).millimetres(r.covered_area_m2);
   add_area_columns(area_columns_of(r, columns), text);
+  if (with_id) text.field(r.id);
+  text.end_row();
 }
 
 void add_building(const BuildingMean& r, const AnswerColumns& columns, CsvText& text) {
@@ -94,6 +94,7 @@ void add_building(const BuildingMean& r, const AnswerColumns& columns, CsvText& 
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls);
   text.millimetres(areas.covered_roofs_m2).millimetres(areas.covered_walls_m2);
   add_area_columns(area_columns_of(r, columns), text);
+  text.end_row();
 }
 
 }  // namespace
@@ -202,12 +203,15 @@ void SurfacePointsCsv::commit() {
 }
 
 void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {
+  const bool with_ids = have_ids(rows);
   CsvText header;
   header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata",
                  columns.quantity + "_mean", columns.quantity + "_min", columns.quantity + "_max", "covered_area_m2"});
   for (const AreaColumn& column : area_columns_of(SurfaceMean{}, columns)) header.field(column.name);
+  if (with_ids) header.field("surface_id");
   header.end_row();
-  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], columns, text); });
+  write_table(path, std::move(header), rows.size(),
+              [&](std::size_t n, CsvText& text) { add_surface(rows[n], columns, with_ids, text); });
 }
 
 void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {

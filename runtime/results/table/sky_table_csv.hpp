@@ -71,7 +71,7 @@ class SurfacePointsCsv {
 };
 
 /// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
-/// QUANTITY_max, covered_area_m2, and those of area_columns_of().
+/// QUANTITY_max, covered_area_m2, those of area_columns_of(), and surface_id where have_ids().
 void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
 /// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls, covered_roof_area_m2,

@@ -13,6 +13,16 @@ namespace {
 
 using testing::HasSubstr;
 
+/// Of a file without byte places: the building itself is nowhere.
+void expect_no_places(const Reading& reading) {
+  EXPECT_FALSE(reading.source.placed.has_value());
+  const auto origin = package::origin_from(reading.city().origin_of(reading.city().buildings().front()));
+  ASSERT_TRUE(origin.has_value());
+  EXPECT_EQ(origin->objects, std::vector{AttributePlace{}});
+  EXPECT_TRUE(origin->semantics.empty() && origin->surfaces.empty());
+  EXPECT_EQ(origin->ids.size(), 3U);
+}
+
 /// Two roofs, and a wall below one of them.
 constexpr const char *roof_1 = "1000 2000 8 1010 2000 8 1010 2010 8 1000 2010 8 1000 2000 8",
                      *roof_2 = "1010 2000 8 1020 2000 8 1020 2010 8 1010 2010 8 1010 2000 8",
@@ -142,15 +152,11 @@ TEST(CityGmlPlaces, AreNowhereInWhatIsPackedOrWide) {
   EXPECT_TRUE(read_text("a.gml", text).source.placed.has_value());
   std::string wide = "\xff\xfe";
   for (const char c : text) wide += {c, '\0'};
-  for (const Reading& reading : {read_text("wide.gml", wide), read_text("bare.gml", wide.substr(2))}) {
-    EXPECT_FALSE(reading.source.placed.has_value());
-    EXPECT_TRUE(reading.city().origin_of(reading.city().buildings().front()).empty());
-  }
+  for (const Reading& reading : {read_text("wide.gml", wide), read_text("bare.gml", wide.substr(2))}) expect_no_places(reading);
   const auto gz = write_file("a.gml.gz", gzip_of(text));
-  Report report;
-  const SourceCity packed = ingest(InputFile(gz.string(), "/vsigzip/" + gz.string(), gz), {}, report);
-  EXPECT_FALSE(packed.placed.has_value());
-  EXPECT_TRUE(packed.city.origin_of(packed.city.buildings().front()).empty());
+  Reading packed;
+  packed.source = ingest(InputFile(gz.string(), "/vsigzip/" + gz.string(), gz), {}, packed.report);
+  expect_no_places(packed);
 }
 
 const std::string numbered = roofs_and_wall("{0+1}", "{2}");
