@@ -166,6 +166,15 @@ struct SurfacePixels {
   std::optional<std::uint64_t> squares = {};
 };
 
+/// A box and the ground around it that maps show: 50 m, or a thirtieth of the side where that is less, so that the box of a small
+/// town fills the map, too. A single house has 5 m around it.
+[[nodiscard]] inline Box2d with_margin(const Box2d& box) {
+  constexpr double least_m = 5.0, most_m = 50.0, share_of_side = 1.0 / 30.0;
+  const auto margin_m = [&](double side_m) { return std::clamp(share_of_side * side_m, least_m, most_m); };
+  const Point2d margin{margin_m(box.high.x - box.low.x), margin_m(box.high.y - box.low.y)};
+  return {box.low - margin, box.high + margin};
+}
+
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
   std::uint32_t version = format_version;  ///< of the format, as read; what is written has format_version
@@ -201,14 +210,14 @@ struct Manifest {
       count += b.mapped ? b.mapped->size() : static_cast<std::uint64_t>(grid.cells_of(b.block).size());
     return count;
   }
-  /// Where the city is, for whoever says no part of it: the pixels of its raster; else its buildings, and 50 m around them; else,
-  /// of a bare terrain and of packages that do not tell their buildings' box, all cells.
+  /// Where the city is, for whoever says no part of it: the pixels of its raster; else its buildings, with_margin; else, of a
+  /// bare terrain and of packages that do not tell their buildings' box, all cells.
   [[nodiscard]] Box2d city_projected() const {
     if (pixels) {
       const Point2d corner = pixels->north_west_m;
       return {{corner.x, corner.y - pixels->rows * pixels->step_m}, {corner.x + pixels->columns * pixels->step_m, corner.y}};
     }
-    return buildings_projected ? grown(*buildings_projected, 50.0) : projected_outline(grid.rectangle());
+    return buildings_projected ? with_margin(*buildings_projected) : projected_outline(grid.rectangle());
   }
   /// Between the grid frame and the output CRS; heights are the same in both.
   [[nodiscard]] Point3d projected_from_grid(const Point3d& p_grid) const {

@@ -151,6 +151,9 @@ struct RunEstimate {
   double memory_bytes = 0.0;            ///< what RunSettings::memory_limit_mib is compared with
 };
 
+/// Within this distance, receivers are near buildings: how much open ground there is around a city, their mean does not tell.
+inline constexpr double near_buildings_m = 20.0;
+
 /// The figures of a run.
 struct EvaluationSummary {
   std::size_t receivers = 0;          ///< with a value
@@ -163,6 +166,10 @@ struct EvaluationSummary {
   std::size_t without_far_map = 0;
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<double> svf_median;  ///< within .00005
+  /// Of a raster above the ground: the receivers whose distance to a building in the plan is near_buildings_m at the most, and
+  /// their mean.
+  std::size_t near_buildings = 0;
+  std::optional<double> svf_mean_near_buildings;
   std::optional<BoundsWidth> bounds;
   std::uint64_t by_rays = 0;        ///< receivers that rays answered, or for which bounds needed the whole city
   std::uint64_t retraced_rays = 0;  ///< rays and parts of the sky (wedges) that the whole city decided (max_error)

@@ -20,8 +20,9 @@ struct PackageDescription {
   std::string crs_wkt, crs_name;  ///< projected, in metres: the CRS of all coordinates here and in the results
   std::optional<int> epsg;        ///< of the CRS, where it has a code
   Box2d outline_projected;        ///< around all cells of the grid
-  /// Where the city is: the pixels of its raster; else its buildings, and 50 m around them; else, of a bare terrain and of
-  /// packages that do not tell where their buildings are, all cells.
+  /// Where the city is: the pixels of its raster; else its buildings, and around them 50 m, or a thirtieth of the box's side
+  /// where that is less, but no less than 5 m; else, of a bare terrain and of packages that do not tell where their buildings
+  /// are, all cells.
   Box2d city_projected;
   std::optional<Box2d> buildings_projected;  ///< around the buildings, as far as the package tells
   Angle grid_bearing;                        ///< of the grid's y axis, clockwise from grid north

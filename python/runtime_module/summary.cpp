@@ -30,11 +30,12 @@ py::dict summary_dict(const EvaluationSummary& run) {
   py::dict summary(
       "receivers"_a = run.receivers, "nodata"_a = run.no_data + run.beyond_grid, "outside_of_grid"_a = run.outside_of_grid,
       "outside_of_region"_a = run.outside_of_region, "receivers_without_far_map"_a = run.without_far_map,
-      "receivers_by_rays"_a = run.by_rays, "azimuths"_a = run.accuracy.azimuths, "rays"_a = run.accuracy.rays,
-      "rays_traced_exactly"_a = run.retraced_rays,
+      "receivers_by_rays"_a = run.by_rays, "receivers_near_buildings"_a = run.near_buildings,
+      "azimuths"_a = run.accuracy.azimuths, "rays"_a = run.accuracy.rays, "rays_traced_exactly"_a = run.retraced_rays,
       "seconds"_a =
           py::dict("scenes"_a = run.seconds.scenes, "evaluate"_a = run.seconds.evaluate, "deliver"_a = run.seconds.deliver),
-      "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "median"_a = run.svf_median, "max"_a = run.svf_max));
+      "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "median"_a = run.svf_median, "max"_a = run.svf_max,
+                         "mean_near_buildings"_a = run.svf_mean_near_buildings));
   if (run.bounds) summary["bounds"] = dict_of(*run.bounds);
   if (run.svf_total)
     summary["svf_total"] = py::dict("min"_a = run.svf_total->min, "mean"_a = run.svf_total->mean, "max"_a = run.svf_total->max);

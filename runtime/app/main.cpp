@@ -275,10 +275,15 @@ WrittenRun evaluate(SvfOptions options) {
   return written;
 }
 
+std::string mean_near_buildings(const EvaluationSummary& run) {
+  if (!run.svf_mean_near_buildings) return {};
+  return fmt::format("; mean within {:g} m of buildings {:.4f}", near_buildings_m, *run.svf_mean_near_buildings);
+}
+
 void print_values(const EvaluationSummary& run, const std::string& quantity) {
   if (run.svf_mean)
-    fmt::print("{}: min {:.4f}, mean {:.4f}, median {:.3f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_median,
-               *run.svf_max);
+    fmt::print("{}: min {:.4f}, mean {:.4f}, median {:.3f}, max {:.4f}{}\n", quantity, *run.svf_min, *run.svf_mean,
+               *run.svf_median, *run.svf_max, mean_near_buildings(run));
   if (run.svf_total)
     fmt::print("svf_total: min {:.4f}, mean {:.4f}, max {:.4f}\n", run.svf_total->min, run.svf_total->mean, run.svf_total->max);
   if (run.svf_mean && *run.svf_min == *run.svf_max && run.receivers > 100)

@@ -74,7 +74,8 @@ Json values_json(const EvaluationSummary& run) {
   return {{"min", number_or_null(run.svf_min)},
           {"mean", number_or_null(run.svf_mean)},
           {"median", number_or_null(run.svf_median)},
-          {"max", number_or_null(run.svf_max)}};
+          {"max", number_or_null(run.svf_max)},
+          {"mean_near_buildings", number_or_null(run.svf_mean_near_buildings)}};
 }
 
 }  // namespace
@@ -92,6 +93,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
             {"receivers_by_rays", run.by_rays},
             {"receivers_without_far_map", run.without_far_map},
             {"receivers_outside_of_grid", run.outside_of_grid},
+            {"receivers_near_buildings", run.near_buildings},
             {"peak_memory_mib", peak_memory_mib()},
             {"svf", values_json(run)}};
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;

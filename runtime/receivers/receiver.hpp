@@ -42,6 +42,8 @@ struct CellReceivers {
   std::vector<Receiver> receivers;
   std::size_t left_out = 0;           ///< of a raster: pixels of the cell where no receiver can stand
   std::size_t outside_of_region = 0;  ///< pixels, points or receivers on surfaces that nobody asks for
+  /// Of each receiver, whether a building is near (near_buildings_m); empty where nobody asks.
+  std::vector<bool> is_near_building = {};
 };
 
 /// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.

@@ -76,7 +76,7 @@ void require_bounds_known(const PackageInUse& package, const ResolvedSettings& s
 /// Counts and statistics of the cells that were stored so far.
 struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
-  SvfStatistics statistics, totals;
+  SvfStatistics statistics, near_buildings, totals;
   SvfDistribution distribution;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
   RayCounts rays;
@@ -85,6 +85,7 @@ struct Tally {
   void add(const PackageReader& package, const Quantities& further, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
     statistics.add(statistics_of(cell.values));
+    near_buildings.add(statistics_near_buildings(cell.receivers, cell.values));
     distribution.add(cell.values.svf);
     totals.add(total_statistics_of(cell.values, further));
     outside_of_region += cell.receivers.outside_of_region;
@@ -92,6 +93,13 @@ struct Tally {
     rays.retraced_rays += cell.values.counts.retraced_rays;
     if (!package.grid().cells.contains(cell.receivers.cell)) outside_of_grid += counts.back();
     if (far_map_of(package, cell.receivers.cell) == FarMapOfCell::missing) without_far_map += counts.back();
+  }
+  void store(const ResolvedSettings& settings, EvaluationSummary& summary) const {
+    store_statistics(statistics, distribution, settings.bounds, summary);
+    store_statistics_near_buildings(near_buildings, summary);
+    store_statistics_of_totals(totals, settings.sky.further, summary);
+    summary.by_rays = rays.by_rays;
+    summary.retraced_rays = rays.retraced_rays;
   }
 };
 
@@ -174,10 +182,7 @@ EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSetting
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluator.statistics(), 0.0);
   summary.accuracy = settings.accuracy;
-  summary.by_rays = tally.rays.by_rays;
-  summary.retraced_rays = tally.rays.retraced_rays;
-  store_statistics(tally.statistics, tally.distribution, settings.bounds, summary);
-  store_statistics_of_totals(tally.totals, settings.sky.further, summary);
+  tally.store(settings, summary);
   return summary;
 }
 
@@ -195,10 +200,7 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   summary.outside_of_region = tally.outside_of_region;
   summary.outside_of_grid = tally.outside_of_grid;
   summary.without_far_map = tally.without_far_map;
-  summary.by_rays = tally.rays.by_rays;
-  summary.retraced_rays = tally.rays.retraced_rays;
-  store_statistics(tally.statistics, tally.distribution, settings.bounds, summary);
-  store_statistics_of_totals(tally.totals, settings.sky.further, summary);
+  tally.store(settings, summary);
   if (settings.verify > 0) {
     Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, cells);
     summary.errors = found.errors;
@@ -242,6 +244,7 @@ class ThinnedCells : public CellsOfRun {
     for (std::size_t k = 0; k < cell.receivers.size(); ++k)
       if (k / together % thinning_ == 0) cell.receivers[kept++] = cell.receivers[k];
     cell.receivers.resize(kept);
+    cell.is_near_building.clear();  // nobody is told a mean
     kept_ += kept;
     return cell;
   }

@@ -13,6 +13,7 @@
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"
 #include "receivers/hilbert_curve.hpp"
+#include "receivers/near_buildings.hpp"
 #include "receivers/raster_receivers.hpp"
 #include "run/memory_limit.hpp"
 #include "run/open_tiles.hpp"
@@ -108,7 +109,9 @@ class PixelCells final : public CellsOfRun {
   [[nodiscard]] double receivers_about(std::size_t n) const override { return pixels_of(pixels_.range_of(cells_[n])); }
   [[nodiscard]] CellReceivers receivers(std::size_t n) override {
     const float height_m = package_height_m(placing_, package_.manifest());
-    return pixels_.in_cell(package_, cells_[n], placing_.above, height_m, stop_);
+    CellReceivers cell = pixels_.in_cell(package_, cells_[n], placing_.above, height_m, stop_);
+    if (placing_.above == HeightAbove::ground) cell.is_near_building = are_near_buildings(package_, cell, stop_);
+    return cell;
   }
   void store(std::size_t, const CellReceivers& cell, const SvfValues& values) override { store_(cell, values); }
 
@@ -241,7 +244,9 @@ class WindowAnswers {
       const std::size_t column = cell.receivers[k].index % whole_columns_ - window_.column;
       const std::size_t row = cell.receivers[k].index / whole_columns_ - window_.row;
       // What lies west or north of the window has wrapped around to a large number
-      if (column < window_.columns && row < window_.rows) put(row * window_.columns + column, values, k);
+      if (column >= window_.columns || row >= window_.rows) continue;
+      put(row * window_.columns + column, values, k);
+      if (!cell.is_near_building.empty() && cell.is_near_building[k]) near_buildings_.add(values.svf[k]);
     }
   }
   [[nodiscard]] Raster take(EvaluationSummary summary) {
@@ -250,6 +255,7 @@ class WindowAnswers {
     summary.svf_min = summary.svf_mean = summary.svf_max = summary.svf_median = std::nullopt;
     if (count > 0) summary.svf_min = svf.min, summary.svf_mean = svf.mean, summary.svf_max = svf.max;
     if (count > 0) summary.svf_median = median_of(raster_.svf);
+    store_statistics_near_buildings(near_buildings_, summary);
     if (count == 0) summary.svf_total.reset();
     if (summary.svf_total) summary.svf_total = range_of(raster_.further[total_band_]).second;
     summary.no_data = raster_.svf.size() - summary.receivers;
@@ -272,6 +278,7 @@ class WindowAnswers {
   std::size_t whole_columns_;
   RasterWindow window_;
   std::size_t total_band_;
+  SvfStatistics near_buildings_;
   Raster raster_;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/svf_statistics.hpp"
 
+#include <optional>
+
 #include "evaluate/quantity_table.hpp"
 
 namespace farlod {
@@ -26,6 +28,13 @@ SvfStatistics statistics_of(const SvfValues& values) {
   return statistics;
 }
 
+SvfStatistics statistics_near_buildings(const CellReceivers& cell, const SvfValues& values) {
+  SvfStatistics statistics;
+  for (std::size_t n = 0; n < cell.is_near_building.size(); ++n)
+    if (cell.is_near_building[n]) statistics.add(values.svf[n]);
+  return statistics;
+}
+
 SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further) {
   SvfStatistics statistics;
   const TotalColumns columns = total_columns_of(further);
@@ -45,6 +54,11 @@ void store_statistics(const SvfStatistics& all, const SvfDistribution& values, b
   run.svf_mean = all.sum / static_cast<double>(all.count);
   run.svf_median = values.median();
   if (bounds) run.bounds = all.width();
+}
+
+void store_statistics_near_buildings(const SvfStatistics& near, EvaluationSummary& run) {
+  run.near_buildings = near.count;
+  run.svf_mean_near_buildings = near.count > 0 ? std::optional(near.sum / static_cast<double>(near.count)) : std::nullopt;
 }
 
 void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run) {

@@ -54,10 +54,13 @@ class SvfDistribution {
 };
 
 [[nodiscard]] SvfStatistics statistics_of(const SvfValues& values);
+/// Those of the receivers near buildings, where that was asked for.
+[[nodiscard]] SvfStatistics statistics_near_buildings(const CellReceivers& cell, const SvfValues& values);
 /// The statistics of the total sky view factors among the further values, where they are.
 [[nodiscard]] SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further);
 
 void store_statistics(const SvfStatistics& all, const SvfDistribution& values, bool bounds, EvaluationSummary& run);
+void store_statistics_near_buildings(const SvfStatistics& near, EvaluationSummary& run);
 void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run);
 
 }  // namespace farlod

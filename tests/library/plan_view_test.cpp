@@ -188,7 +188,8 @@ TEST_F(Windows, HaveThePixelsOfTheWholeToTheBit) {
   settings.bounds = true;
   settings.further.hidden = true;
   const Raster whole = evaluate_raster(package_, plan_, {}, settings);
-  std::size_t receivers = 0, no_data = 0;
+  std::size_t receivers = 0, no_data = 0, near_buildings = 0;
+  double sum_near_buildings = 0.0;
   constexpr std::size_t columns = 23, rows = 31;
   for (std::size_t row = 0; row < plan_.rows; row += rows)
     for (std::size_t column = 0; column < plan_.columns; column += columns) {
@@ -201,7 +202,12 @@ TEST_F(Windows, HaveThePixelsOfTheWholeToTheBit) {
         EXPECT_EQ(differences(window.further[band], place, whole.further[band], plan_.columns), 0U);
       receivers += window.summary.receivers;
       no_data += window.summary.no_data;
+      near_buildings += window.summary.near_buildings;
+      sum_near_buildings +=
+          static_cast<double>(window.summary.near_buildings) * window.summary.svf_mean_near_buildings.value_or(0.0);
     }
+  EXPECT_EQ(near_buildings, whole.summary.near_buildings);
+  EXPECT_NEAR(sum_near_buildings / static_cast<double>(near_buildings), whole.summary.svf_mean_near_buildings.value(), 1e-12);
   EXPECT_EQ(receivers, whole.summary.receivers);
   EXPECT_EQ(no_data, whole.summary.no_data + whole.summary.beyond_grid);
 }

@@ -193,6 +193,20 @@ TEST(Package, ManifestOfABlockWithoutFarMaps) {
   EXPECT_EQ(package::folder_of(read_manifest(small.folder()).blocks[0]), "blocks/0_0_0");
 }
 
+TEST(Package, MapsShowFiftyMetresAroundACityAndLessAroundASmallOne) {
+  const auto margin_of = [](double side_m) {
+    const Box2d box{{1000.0, 2000.0}, {1000.0 + side_m, 2000.0 + 3.0 * side_m}}, map = package::with_margin(box);
+    const Point2d low = box.low - map.low, high = map.high - box.high;
+    EXPECT_NEAR(low.x, high.x, 1e-9);
+    EXPECT_NEAR(low.y, high.y, 1e-9);
+    return high;
+  };
+  EXPECT_NEAR(norm(margin_of(10.0) - Point2d{5.0, 5.0}), 0.0, 1e-9);
+  EXPECT_NEAR(norm(margin_of(240.0) - Point2d{8.0, 24.0}), 0.0, 1e-9);
+  EXPECT_NEAR(norm(margin_of(900.0) - Point2d{30.0, 50.0}), 0.0, 1e-9);
+  EXPECT_NEAR(norm(margin_of(5000.0) - Point2d{50.0, 50.0}), 0.0, 1e-9);
+}
+
 TEST(Package, ManifestTellsTheBoxOfTheBuildings) {
   const SmallPackage small;
   json m = small.manifest();
@@ -204,7 +218,7 @@ TEST(Package, ManifestTellsTheBoxOfTheBuildings) {
   m["buildings_box_m"] = {10.0, 20.0, 30.5, 41.0};
   small.write_manifest(m);
   read = read_manifest(small.folder());
-  EXPECT_EQ(read.city_projected(), (Box2d{{-40.0, -30.0}, {80.5, 91.0}}));
+  EXPECT_EQ(read.city_projected(), (Box2d{{5.0, 15.0}, {35.5, 46.0}}));
   EXPECT_EQ(manifest_from_text(manifest_text(read), "again").buildings_projected, read.buildings_projected);
   read.pixels = package::SurfacePixels{{100.0, 200.0}, 2.0, 10, 5};
   EXPECT_EQ(read.city_projected(), (Box2d{{100.0, 190.0}, {120.0, 200.0}}));

@@ -22,7 +22,8 @@ import farlod
 
 
 def test_same_pixels_as_the_program(village: farlod.City, tmp_path: Path) -> None:
-    run_program("farlod-svf", village.path, "--grid", 2, "--bounds", "--quantity", "directional", "-o", tmp_path / "svf.tif")
+    run_program("farlod-svf", village.path, "--grid", 2, "--bounds", "--quantity", "directional", "-o", tmp_path / "svf.tif",
+                "--summary", tmp_path / "s.json")
     grid = village.svf_grid(2.0, bounds=True, quantities=["directional"])
     with rasterio.open(tmp_path / "svf.tif") as file:
         assert grid.rio.crs == file.crs
@@ -30,6 +31,9 @@ def test_same_pixels_as_the_program(village: farlod.City, tmp_path: Path) -> Non
         for number, band in enumerate(grid.data_vars, start=1):
             np.testing.assert_array_equal(grid[band].values, file.read(number))
     assert list(grid.data_vars) == ["svf", "svf_low", "svf_high", "svfN", "svfE", "svfS", "svfW"]
+    ours, theirs = json.loads(grid.attrs["summary"]), json.loads((tmp_path / "s.json").read_text())
+    assert ours["svf"] == theirs["svf"] and 0.0 < ours["svf"]["mean_near_buildings"] < 1.0
+    assert ours["receivers_near_buildings"] == theirs["receivers_near_buildings"] > 0
 
 
 def test_part_has_the_pixels_of_the_whole(village: farlod.City) -> None:

@@ -76,8 +76,9 @@ class OpenCity:
 
     @property
     def city_bounds(self) -> _arguments.Bbox:
-        """West, south, east and north of the buildings and 50 m around them, or of the raster that the city is: of rasters, by
-        default. Of a bare terrain, the same as ``bounds``."""
+        """West, south, east and north of the buildings and what is around them, or of the raster that the city is: of rasters, by
+        default. Around them is 50 m, or a thirtieth of the box's side where that is less, but no less than 5 m. Of a bare
+        terrain, the same as ``bounds``."""
         west, south, east, north = self._description["city_m"]
         return west, south, east, north
 
