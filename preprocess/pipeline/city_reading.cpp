@@ -48,7 +48,8 @@ void require_one_raster(const std::vector<ingest::InputFile>& surface_models, co
     throw InputError(first + " and " + surface_models[1].name +
                      " are both rasters of heights: give one of them, or their mosaic.");
   if (!terrain.empty())
-    throw InputError(first + " is a raster of heights, and so is --terrain " + terrain.front().string() + ": give one of them.");
+    throw InputError(first + " is a raster of heights, and so is --terrain " + terrain.front().string() +
+                     ": give one of them; a surface model shows its ground itself.");
 }
 
 void require_ground_below_roofs(const CityModel& city) {

@@ -44,7 +44,10 @@ def _columns_of_geometries(points: Any, crs_wkt: str) -> tuple[Floats, Floats, F
     if geometries.crs is None:
         raise InvalidArgument("points have no CRS: set it with set_crs(), so that they can be brought into the city's")
     if not (geometries.geom_type == "Point").all() or geometries.is_empty.any():
-        raise InvalidArgument("points has geometries that are no points, or empty: leave them out, or take their centroid")
+        raise InvalidArgument(
+            "points has geometries that are no points, or empty: leave them out, or take their centroid; "
+            "City.surfaces() answers for buildings"
+        )
     here = geometries.to_crs(crs_wkt)
     x, y = here.x.to_numpy(np.float64), here.y.to_numpy(np.float64)
     if not (np.isfinite(x) & np.isfinite(y)).all():
