@@ -166,7 +166,7 @@ struct EvaluationSummary {
   std::size_t without_far_map = 0;
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<double> svf_median;  ///< within .00005
-  /// Of a raster above the ground: the receivers whose distance to a building in the plan is near_buildings_m at the most, and
+  /// The receivers of a raster above the ground whose distance to a building in the plan is near_buildings_m at the most, and
   /// their mean.
   std::size_t near_buildings = 0;
   std::optional<double> svf_mean_near_buildings;

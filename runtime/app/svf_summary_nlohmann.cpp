@@ -63,7 +63,8 @@ Json json_of(const PeriodLight& light, const Light& asked, const LightSource& so
           {"remarks", light.remarks}};
 }
 
-void add_errors_and_totals(const EvaluationSummary& run, Json& j) {
+void add_accuracy_and_totals(const EvaluationSummary& run, Json& j) {
+  if (run.bounds) j["bounds"] = json_of(*run.bounds);
   if (run.errors) j["verify"] = json_of(*run.errors);
   if (run.svf_total) j["svf_total"] = {{"min", run.svf_total->min}, {"mean", run.svf_total->mean}, {"max", run.svf_total->max}};
   if (run.svf_total_bounds) j["svf_total_bounds"] = json_of(*run.svf_total_bounds);
@@ -99,9 +100,8 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   if (written.light) j["light"] = json_of(*written.light, *options.evaluation.further.light, *options.light);
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
-  if (run.bounds) j["bounds"] = json_of(*run.bounds);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);
-  add_errors_and_totals(run, j);
+  add_accuracy_and_totals(run, j);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   if (!written.notes.empty()) j["notes"] = written.notes;

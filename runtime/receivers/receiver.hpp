@@ -40,10 +40,9 @@ void for_each_normal(std::span<const Receiver> receivers, const Visit& visit) {
 struct CellReceivers {
   Cell cell;
   std::vector<Receiver> receivers;
-  std::size_t left_out = 0;           ///< of a raster: pixels of the cell where no receiver can stand
-  std::size_t outside_of_region = 0;  ///< pixels, points or receivers on surfaces that nobody asks for
-  /// Of each receiver, whether a building is near (near_buildings_m); empty where nobody asks.
-  std::vector<bool> is_near_building = {};
+  std::size_t left_out = 0;                 ///< of a raster: pixels of the cell where no receiver can stand
+  std::size_t outside_of_region = 0;        ///< pixels, points or receivers on surfaces that nobody asks for
+  std::vector<bool> is_near_building = {};  ///< of each receiver: near_buildings_m; empty where nobody asks
 };
 
 /// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.

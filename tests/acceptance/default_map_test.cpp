@@ -124,7 +124,7 @@ TEST_F(PackedTown, SummariesTellTheMeanWithinTwentyMetresOfBuildings) {
 
 /// Buildings beyond the box are near, too.
 TEST_F(PackedTown, ABoxOfAMapKnowsTheBuildingsAroundIt) {
-  const Point2d street = p_projected({30.0, 30.0}), low = street - Point2d{8.0, 8.0}, high = street + Point2d{8.0, 8.0};
+  const Point2d crossing = p_projected({0.0, 0.0}), low = crossing - Point2d{8.0, 8.0}, high = crossing + Point2d{8.0, 8.0};
   folder.must("farlod-svf a.farlod -o o.asc --grid 1 --summary s.json --bbox " + text_of(low) + "," + text_of(high));
   const NearBlocks expected(raster("o.asc"), small_town());
   EXPECT_GT(expected.count, 100U);
