@@ -104,7 +104,9 @@ TEST_F(PackedTown, SummariesTellTheMeanWithinTwentyMetresOfBuildings) {
     const std::string said = "; mean within 20 m of buildings ";
     const std::size_t place = run.out.find(said);
     EXPECT_EQ(place == std::string::npos, mean.is_null()) << run.out;
-    if (!mean.is_null()) EXPECT_NEAR(std::stod(run.out.substr(place + said.size())), mean.get<double>(), 0.5001e-4);
+    if (!mean.is_null()) {
+      EXPECT_NEAR(std::stod(run.out.substr(place + said.size())), mean.get<double>(), 0.5001e-4);
+    }
     return std::pair(summary.at("receivers_near_buildings").get<std::size_t>(), mean.dump());
   };
   const auto whole = told_by("--bbox grid --threads 1");

@@ -65,7 +65,9 @@ std::size_t expect_the_distance_to_say_so(const PackageReader& package) {
       const Point2d p = plan.centre_m(pixel % plan.columns, pixel / plan.columns);
       double least_m = distance_m(slab, p);
       for (const Box2d& house : houses) least_m = std::min(least_m, distance_m(house, p));
-      if (std::abs(least_m - near_buildings_m) > rounding_m) EXPECT_EQ(is_near[n], least_m < near_buildings_m) << least_m;
+      if (std::abs(least_m - near_buildings_m) > rounding_m) {
+        EXPECT_EQ(is_near[n], least_m < near_buildings_m) << least_m;
+      }
       near_ones += is_near[n] ? 1U : 0U;
       ++all;
     }
