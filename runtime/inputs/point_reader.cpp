@@ -182,8 +182,7 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
   std::vector<RequestedPoint>& points = result.points;
   points.reserve(records.size());
   UnreadRows unread;
-  const TextRecord no_header;
-  const TextRecord& header_row = header ? records.front() : no_header;
+  const TextRecord header_row = header ? records.front() : TextRecord();
   const std::span rows = std::span(records).subspan(header ? 1 : 0);
   for (std::size_t n = 0; n < rows.size(); ++n)
     unread.count_unless(rows[n].line, [&] {
