@@ -276,7 +276,7 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
         if grid is not None and step is not None:
             raise InvalidArgument("grid and step both say which pixels: give one of them")
         if grid is None:
-            west, south, east, north = self.bounds
+            west, south, east, north = self.city_bounds
             grid = self.svf_grid(step if step is not None else max(1.0, math.ceil(max(east - west, north - south) / 1000.0)))
         lines = None
         if outlines:
