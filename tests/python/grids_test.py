@@ -37,7 +37,7 @@ def test_same_pixels_as_the_program(village: farlod.City, tmp_path: Path) -> Non
 
 
 def test_part_has_the_pixels_of_the_whole(village: farlod.City) -> None:
-    west, south, east, north = village.bounds
+    west, south, east, north = village.city_bounds
     box = (west + 20.5, south + 20.5, east - 20.5, north - 20.5)
     part, whole = village.svf_grid(1.0, box), village.svf_grid(1.0)
     there = whole.svf.sel(x=part.x, y=part.y)

@@ -8,7 +8,7 @@ surfaces of buildings.
 >>> city = farlod.open(village)
 >>> grid = city.svf_grid(step=5.0)
 >>> round(float(grid.svf.mean()), 2)
-0.93
+0.8
 
 Lengths are in metres, azimuths in degrees clockwise from true north, coordinates in the CRS of the city (:attr:`City.crs`).
 NaN is no data. Arrays go in and come out without a copy where their layout allows it, and other threads of Python run meanwhile.

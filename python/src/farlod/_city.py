@@ -196,9 +196,9 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
             A row for each surface, with the columns of the tables of farlod-svf: ``geometry`` (MultiPolygon Z), ``building``,
             ``surface`` (its number in the building), ``kind``, ``azimuth_deg`` and ``tilt_deg`` of its outward normal,
             ``area_m2`` of what has an answer and ``covered_area_m2`` of what has none, ``receivers``, ``nodata`` (receivers
-            without an answer), ``svf_mean`` (weighted by area), ``svf_min``, ``svf_max``, a column for each quantity, and ``surface_id``,
-            what the city file calls the surface, where it has ids (see docs/stages/results.md). With ``points`` a row for each receiver: Point Z, ``building``, ``surface``, ``kind``, ``azimuth_deg``, ``tilt_deg``,
-            ``area_m2``, ``svf``, with ``bounds`` also ``svf_low`` and ``svf_high``.
+            without an answer), ``svf_mean`` (weighted by area), ``svf_min``, ``svf_max``, a column for each quantity, and
+            ``surface_id``, what the city file calls the surface, where it has ids. With ``points`` a row for each receiver:
+            Point Z, ``building``, ``surface``, ``kind``, ``azimuth_deg``, ``tilt_deg``, ``area_m2``, ``svf``, with ``bounds`` also ``svf_low`` and ``svf_high``.
 
         Examples
         --------
@@ -276,7 +276,7 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
         if grid is not None and step is not None:
             raise InvalidArgument("grid and step both say which pixels: give one of them")
         if grid is None:
-            west, south, east, north = self.bounds
+            west, south, east, north = self.city_bounds
             grid = self.svf_grid(step if step is not None else max(1.0, math.ceil(max(east - west, north - south) / 1000.0)))
         lines = None
         if outlines:
