@@ -49,7 +49,8 @@ def options_of_setup(module: str) -> dict[str, dict[str, str]]:
 
 def require_wheel() -> None:
     """Without `wheel`, setuptools before 70.1 says "invalid command 'bdist_wheel'", which does not tell what to do."""
-    has_command = any(importlib.util.find_spec(name) for name in ("wheel", "setuptools._vendor.wheel", "setuptools.command.bdist_wheel"))
+    makers = ("wheel", "setuptools._vendor.wheel", "setuptools.command.bdist_wheel")
+    has_command = any(importlib.util.find_spec(name) for name in makers)
     if not has_command:
         raise SystemExit(
             f"{sys.executable} has no package wheel. Is it another Python than Debian's? Make the environment by "

@@ -198,7 +198,8 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
             ``area_m2`` of what has an answer and ``covered_area_m2`` of what has none, ``receivers``, ``nodata`` (receivers
             without an answer), ``svf_mean`` (weighted by area), ``svf_min``, ``svf_max``, a column for each quantity, and
             ``surface_id``, what the city file calls the surface, where it has ids. With ``points`` a row for each receiver:
-            Point Z, ``building``, ``surface``, ``kind``, ``azimuth_deg``, ``tilt_deg``, ``area_m2``, ``svf``, with ``bounds`` also ``svf_low`` and ``svf_high``.
+            Point Z, ``building``, ``surface``, ``kind``, ``azimuth_deg``, ``tilt_deg``, ``area_m2``, ``svf``, with ``bounds``
+            also ``svf_low`` and ``svf_high``.
 
         Examples
         --------
