@@ -85,6 +85,15 @@ void append_text(std::vector<std::uint8_t>& bytes, std::string_view text) {
   append(bytes, text);
 }
 
+/// A byte 0 stands for the id of the building.
+std::string with_mark(const SurfaceIds& surfaces) {
+  return surfaces.behind_building_id ? std::string(1, '\0') + surfaces.id : surfaces.id;
+}
+SurfaceIds without_mark(std::uint32_t begin, std::uint32_t end, const std::string& marked) {
+  const bool is_marked = marked.front() == '\0';
+  return {begin, end, marked.substr(is_marked ? 1 : 0), is_marked};
+}
+
 // The flags of an id, in the lowest bits of its code
 constexpr std::uint64_t is_behind_a_gap = 1, is_of_several = 2;
 constexpr unsigned flag_bits = 2, rest_bits = 2;
@@ -106,10 +115,11 @@ std::string id_from(SourcesCursor& cursor, std::string_view before, std::uint64_
 
 void append_ids(std::vector<std::uint8_t>& bytes, const std::vector<SurfaceIds>& ids) {
   append_number(bytes, ids.size());
-  std::string_view before;
+  std::string before;
   std::uint32_t expected = 0;
   for (const SurfaceIds& surfaces : ids) {
-    const CutId id = cut(surfaces.id);
+    std::string marked = with_mark(surfaces);
+    const CutId id = cut(marked);
     const auto shared = static_cast<std::size_t>(
         std::mismatch(id.before.begin(), id.before.end(), before.begin(), before.end()).first - id.before.begin());
     const bool has_gap = surfaces.begin != expected, are_several = surfaces.end - surfaces.begin > 1;
@@ -122,23 +132,25 @@ void append_ids(std::vector<std::uint8_t>& bytes, const std::vector<SurfaceIds>&
     if (rest == IdRest::uuid_and_text) append_number(bytes, id.is_upper ? 1U : 0U);
     if (id.has_uuid) append(bytes, id.uuid);
     if (rest == IdRest::uuid_and_text) append_text(bytes, id.behind);
-    before = surfaces.id;
+    before = std::move(marked);
     expected = surfaces.end;
   }
 }
 
 bool read_ids(SourcesCursor& cursor, std::vector<SurfaceIds>& ids) {
   const std::size_t count = cursor.count();
+  std::string before;
   std::uint64_t expected = 0;
   for (std::size_t n = 0; n < count; ++n) {
     const std::uint64_t code = cursor.number();
     const std::uint64_t begin = expected + ((code & is_behind_a_gap) != 0 ? cursor.number32() : 0);
     const std::uint64_t end = begin + ((code & is_of_several) != 0 ? cursor.number32() : 1);
-    std::string id = id_from(cursor, n == 0 ? std::string_view() : ids.back().id, code >> flag_bits);
+    std::string id = id_from(cursor, before, code >> flag_bits);
     if (cursor.failed() || end <= begin || end > std::numeric_limits<std::uint32_t>::max() || id.empty() ||
         id.size() > most_id_bytes)
       return false;
-    ids.push_back({static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), std::move(id)});
+    ids.push_back(without_mark(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end), id));
+    before = std::move(id);
     expected = end;
   }
   return count > 0;

@@ -35,7 +35,8 @@ struct SurfaceOrigin {
 /// What the file calls consecutive surfaces of a building.
 struct SurfaceIds {
   std::uint32_t begin = 0, end = 0;  ///< numbers of surfaces, half open
-  std::string id;                    ///< 1 to 256 bytes; a byte 0 at its beginning stands for the id of the building
+  std::string id;                    ///< at most 256 bytes
+  bool behind_building_id = false;   ///< whether the id of the building stands before it
   bool operator==(const SurfaceIds&) const = default;
 };
 

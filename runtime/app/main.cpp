@@ -330,7 +330,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   fmt::print("\n");
   print_values(run, quantity_name(asked.weight));
   if (run.outside_of_grid > 0)
-    fmt::print("{} receivers lie outside of the grid: horizons of the whole city answered them, as exactly as the others.\n",
+    fmt::print("{} receivers lie outside of the grid: horizons of the whole city answered them, as well as the others.\n",
                run.outside_of_grid);
   if (run.without_far_map > 0)
     fmt::print(

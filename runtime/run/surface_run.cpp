@@ -181,7 +181,7 @@ void name_surfaces(const std::vector<SurfaceMean*>& surfaces, const std::vector<
   for (SurfaceMean* surface : surfaces) {
     const auto of = std::ranges::upper_bound(ids, surface->surface, {}, &SurfaceIds::end);
     if (of == ids.end() || surface->surface < of->begin) continue;
-    surface->id = of->id.front() == '\0' ? surface->building + of->id.substr(1) : of->id;
+    surface->id = (of->behind_building_id ? surface->building : std::string()) + of->id;
   }
 }
 

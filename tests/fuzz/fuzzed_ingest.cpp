@@ -35,7 +35,7 @@ void expect_origin_in_file(const SourceCity& source, const Building& building, s
   const auto origin = package::origin_from(bytes);
   FARLOD_EXPECTS(origin.has_value());
   FARLOD_EXPECTS(source.placed.has_value() || !origin->ids.empty());
-  for (const SurfaceIds& ids : origin->ids) FARLOD_EXPECTS(ids.begin < ids.end && !ids.id.empty());
+  for (const SurfaceIds& ids : origin->ids) FARLOD_EXPECTS(ids.begin < ids.end && (ids.behind_building_id || !ids.id.empty()));
   if (!source.placed) return;
   for (const auto* places : {&origin->objects, &origin->semantics})
     for (const AttributePlace& place : *places)

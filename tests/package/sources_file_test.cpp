@@ -87,7 +87,7 @@ TEST_F(SmallSources, ComeBack) {
 
 TEST_F(SmallSources, IdsMakeAVersionOfTheirOwn) {
   BuildingOrigin named = first;
-  named.ids = {{0, 2, "UUID_cddb67ba-46f5-479e-bda0-4563cd4835bf"}, {5, 6, std::string(1, '\0') + "_wall"}};
+  named.ids = {{0, 2, "UUID_cddb67ba-46f5-479e-bda0-4563cd4835bf"}, {5, 6, "_wall", true}};
   write({named, {}, second});
   const Manifest manifest = manifest_of_this();
   const SourcesFile sources(PackageFolder(small.folder()), manifest);
@@ -207,7 +207,7 @@ std::vector<SurfaceIds> random_ids(std::mt19937_64& random) {
   for (std::uint64_t n = random() % 6; n > 0; --n) {
     const std::uint32_t begin = end + static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 1000 : 0);
     end = begin + 1 + static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 100 : 0);
-    ids.push_back({begin, end, random() % 4 == 0 && !ids.empty() ? ids.back().id : random_id(random)});
+    ids.push_back({begin, end, random() % 4 == 0 && !ids.empty() ? ids.back().id : random_id(random), random() % 5 == 0});
   }
   return ids;
 }

@@ -290,10 +290,9 @@ package::BuildingOrigin CityModelBuilder::origin_among(const PlacesOfBuilding& p
 
 void CityModelBuilder::note_id(std::uint32_t surface, std::string_view id) {
   if (id.empty() || id.size() > package::most_id_bytes) return;
-  std::string kept(id);
   // Most ids that a program has made begin with that of the building, which the package has
-  if (!id_.empty() && id.starts_with(id_)) kept.replace(0, id_.size(), 1, '\0');
-  surface_ids_.push_back({surface, surface + 1, std::move(kept)});
+  const bool is_behind = !id_.empty() && id.starts_with(id_);
+  surface_ids_.push_back({surface, surface + 1, std::string(id.substr(is_behind ? id_.size() : 0)), is_behind});
 }
 
 std::vector<package::SurfaceIds> CityModelBuilder::take_ids() {
@@ -302,7 +301,8 @@ std::vector<package::SurfaceIds> CityModelBuilder::take_ids() {
   std::vector<package::SurfaceIds> ids;
   for (package::SurfaceIds& next : surface_ids_) {
     if (!ids.empty() && next.begin < ids.back().end) continue;
-    if (!ids.empty() && next.begin == ids.back().end && next.id == ids.back().id)
+    if (!ids.empty() && next.begin == ids.back().end && next.id == ids.back().id &&
+        next.behind_building_id == ids.back().behind_building_id)
       ids.back().end = next.end;
     else
       ids.push_back(std::move(next));

@@ -37,8 +37,7 @@ std::string ids_of(const Reading& reading) {
   if (!origin) return "none";
   std::string text;
   for (const SurfaceIds& ids : origin->ids)
-    text += std::to_string(ids.begin) + "-" + std::to_string(ids.end) + " " +
-            (ids.id.front() == '\0' ? "@" + ids.id.substr(1) : ids.id) + "; ";
+    text += std::to_string(ids.begin) + "-" + std::to_string(ids.end) + " " + (ids.behind_building_id ? "@" : "") + ids.id + "; ";
   return text;
 }
 std::string ids_of_gml(const std::string& content) { return ids_of(read_text("a.gml", file_with(content))); }
