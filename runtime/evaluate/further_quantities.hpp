@@ -60,9 +60,8 @@ struct ProfiledPacket {
   /// Working memory, kept from packet to packet.
   struct Rows {
     std::vector<PacketHorizon::Row> low, high, terms, open_terms;
-    std::vector<float> light;                    ///< light[receiver][layer] of a LightTable
-    std::vector<float> lost;                     ///< what crowns take of it
-    std::vector<PacketHorizon::Row> seen_share;  ///< of the sky above each azimuth's horizon, where horizons jump
+    std::vector<PacketHorizon::Row> light;  ///< light[layer][receiver] of a LightTable
+    std::vector<PacketHorizon::Row> lost;   ///< what crowns take of it
   };
   /// svf as it is answered, and with needs_near_sky() that of the near geometry alone.
   struct Sky {

@@ -9,6 +9,8 @@
 
 #include "base/expects.hpp"
 #include "evaluate/further_quantities.hpp"
+#include "horizon/kernels.hpp"
+#include "horizon/light_kernels.hpp"
 #include "receivers/receiver.hpp"
 
 // What is made of the sun and of the sky's light.
@@ -40,108 +42,55 @@ NormalParts normal_parts(const ReceiverPacket& receivers, std::size_t lane, cons
           receivers.normal_z[lane]};
 }
 
-/// Above a slope of so much there is next to no light.
-constexpr float as_good_as_zenith = 1e5F;
-
-/// What the receivers of a packet get from an azimuth.
-class LightOfColumn {
+/// What crowns take of the light of a packet.
+class LightOfCrowns {
  public:
-  LightOfColumn(const LightTable& light, const AzimuthSampling& azimuths, const ProfiledPacket& packet)
-      : light_(light),
-        azimuths_(azimuths),
-        packet_(packet),
-        all_look_up_(packet.receivers.all_look_straight_up()),
-        of_turn_(1.0F / static_cast<float>(azimuths.size())) {}
+  /// lost[receiver][pair]
+  using Sums = std::array<std::array<LightPair, LightTable::most_pairs>, packet_lanes>;
 
-  /// Adds to sums[receiver][layer].
-  void add_to(std::size_t azimuth, float* sums) {
-    const SkyProfile& profile = packet_.profile;
-    azimuth_ = azimuth;
-    for (std::size_t l = 0; l < packet_.receivers.count; ++l, sums += light_.layers()) {
-      face(l);
-      read(profile.sky_from[azimuth][l], zenith_slope, here_.data());
-      if (!profile.light_sky.empty()) {
-        packet_.rows.seen_share[azimuth][l] = share_above_horizon(l);
-        move_jump(l);
-      }
-      for (std::size_t n = 0; n < light_.layers(); ++n) sums[n] += here_[n];
-      if (has_gap(l)) add_between(profile.gap_from[azimuth][l], profile.gap_to[azimuth][l], profile.gap_share[azimuth][l], sums);
-    }
-  }
+  LightOfCrowns(const LightTable& light, const AzimuthSampling& azimuths, const ProfiledPacket& packet)
+      : light_(light), azimuths_(azimuths), packet_(packet) {}
 
-  /// Adds what crowns take between two slopes to lost[receiver][layer], after add_to of their azimuth.
-  void add_lost(const DimmedSlopes& dimmed, float* lost) {
+  /// Adds what they take between two slopes.
+  void add_lost(const DimmedSlopes& dimmed, Sums& lost) {
     const SkyProfile& profile = packet_.profile;
     azimuth_ = dimmed.azimuth;
     const std::size_t l = dimmed.lane;
-    lost += l * light_.layers();
-    face(l);
+    normal_ = normal_parts(packet_.receivers, l, azimuths_, azimuth_);
+    front_ = slopes_in_front_of(normal_.outward, normal_.upward);
+    const float from = profile.sky_from[azimuth_][l];
     // Where the horizon jumps, they take so much of what is left above it
-    const float seen = profile.light_sky.empty() ? 1.0F : packet_.rows.seen_share[azimuth_][l];
-    add_between(std::max(dimmed.low, profile.sky_from[azimuth_][l]), dimmed.high, dimmed.lost * seen, lost);
-    if (!has_gap(l)) return;
+    const float seen = profile.light_sky.empty() ? 1.0F : share_above(l, from);
+    add_between(std::max(dimmed.low, from), dimmed.high, dimmed.lost * seen, lost[l]);
+    if (profile.gap_share.empty() || !(profile.gap_share[azimuth_][l] > 0.0F)) return;
     add_between(std::max(dimmed.low, profile.gap_from[azimuth_][l]), std::min(dimmed.high, profile.gap_to[azimuth_][l]),
-                dimmed.lost * profile.gap_share[azimuth_][l], lost);
+                dimmed.lost * profile.gap_share[azimuth_][l], lost[l]);
   }
 
  private:
-  void face(std::size_t lane) {
-    if (all_look_up_) return;
-    normal_ = normal_parts(packet_.receivers, lane, azimuths_, azimuth_);
-    front_ = slopes_in_front_of(normal_.outward, normal_.upward);
-  }
-  /// What comes from between two slopes, in front of the receiver.
-  void read(float from, float to, float* layers) {
+  /// Adds a share of what comes from between two slopes, in front of the receiver.
+  void add_between(float from, float to, float share, Sums::value_type& sums) const {
     from = std::max(from, front_.from);
     to = std::min(to, front_.to);
-    if (!(from < std::min(to, as_good_as_zenith))) {
-      std::fill_n(layers, light_.layers(), 0.0F);
-      return;
-    }
-    light_.read_above(azimuth_, LightTable::place_of(from), normal_.outward, normal_.upward, layers);
-    if (to >= as_good_as_zenith) return;
-    light_.read_above(azimuth_, LightTable::place_of(to), normal_.outward, normal_.upward, above_.data());
-    for (std::size_t n = 0; n < light_.layers(); ++n) layers[n] -= above_[n];
-  }
-  [[nodiscard]] bool has_gap(std::size_t lane) const {
-    return !packet_.profile.gap_share.empty() && packet_.profile.gap_share[azimuth_][lane] > 0.0F;
-  }
-  void add_between(float from, float to, float share, float* sums) {
-    read(from, to, here_.data());
-    for (std::size_t n = 0; n < light_.layers(); ++n) sums[n] += share * here_[n];
+    if (!(from < std::min(to, no_light_above))) return;
+    const float outward = share * normal_.outward, upward = share * normal_.upward;
+    light_.add_above(azimuth_, LightTable::place_of(from), outward, upward, sums.data());
+    if (to < no_light_above) light_.add_above(azimuth_, LightTable::place_of(to), -outward, -upward, sums.data());
   }
   /// The sky that the profile knows, as a share of that above the slope of the horizon.
-  [[nodiscard]] float share_above_horizon(std::size_t lane) const {
-    const float above = here_[static_cast<std::size_t>(LightLayer::uniform)];
-    return above > 0.0F ? packet_.profile.light_sky[azimuth_][lane] * of_turn_ / above : 0.0F;
-  }
-  /// Where the horizon jumps between two azimuths, the sky of the profile knows at which place: so much of this azimuth's part of
-  /// the turn has the horizon of its neighbor.
-  void move_jump(std::size_t lane) {
-    constexpr float least = 2e-3F;
-    constexpr auto uniform = static_cast<std::size_t>(LightLayer::uniform);
-    const float missing = packet_.profile.light_sky[azimuth_][lane] * of_turn_ - here_[uniform];
-    if (std::abs(missing) < least * of_turn_) return;
-    const SkyProfile::Rows& slopes = packet_.profile.sky_from;
-    const float before = slopes[azimuth_ == 0 ? azimuths_.size() - 1 : azimuth_ - 1][lane],
-                after = slopes[azimuth_ + 1 == azimuths_.size() ? 0 : azimuth_ + 1][lane];
-    // The lower of both horizons where sky is missing, otherwise the higher one
-    read(missing > 0.0F ? std::min(before, after) : std::max(before, after), zenith_slope, beside_.data());
-    const float whole = beside_[uniform] - here_[uniform];
-    if (!(whole * missing > 0.0F)) return;
-    const float share = std::min(1.0F, missing / whole);
-    for (std::size_t n = 0; n < light_.layers(); ++n) here_[n] += share * (beside_[n] - here_[n]);
+  [[nodiscard]] float share_above(std::size_t lane, float horizon) const {
+    Sums::value_type above{};
+    add_between(horizon, zenith_slope, static_cast<float>(azimuths_.size()), above);
+    const float uniform = light_of_layer(above.data(), static_cast<std::size_t>(LightLayer::uniform));
+    return uniform > 0.0F ? packet_.profile.light_sky[azimuth_][lane] / uniform : 0.0F;
   }
 
   const LightTable& light_;
   const AzimuthSampling& azimuths_;
   const ProfiledPacket& packet_;
-  bool all_look_up_;
-  float of_turn_;  ///< the share of an azimuth
   std::size_t azimuth_ = 0;
   NormalParts normal_{0.0F, 1.0F};
   SlopesInFront front_;
-  std::array<float, LightTable::most_layers> here_{}, beside_{}, above_{};
 };
 
 /// The sky of the profile, `seen` of the uniform sky, lacks what `svf` knows better, such as where horizons jump between
@@ -278,12 +227,28 @@ void FurtherQuantities::add_shade(const ProfiledPacket& packet, QuantityColumns&
 }
 
 void FurtherQuantities::find_light(const ProfiledPacket& packet) const {
-  packet.rows.light.assign(packet_lanes * light_->layers(), 0.0F);
-  packet.rows.lost.assign(packet_lanes * light_->layers(), 0.0F);
-  packet.rows.seen_share.resize(azimuths_.size());
-  LightOfColumn column(*light_, azimuths_, packet);
-  for (std::size_t k = 0; k < azimuths_.size(); ++k) column.add_to(k, packet.rows.light.data());
-  for (const DimmedSlopes& dimmed : packet.dimmed) column.add_lost(dimmed, packet.rows.lost.data());
+  const SkyProfile& profile = packet.profile;
+  const auto rows = [](const SkyProfile::Rows& r) { return r.empty() ? nullptr : r.front().data(); };
+  packet.rows.light.resize(light_->layers());
+  light_kernels().sum_light({.even = light_->even(),
+                             .pairs = light_->pairs(),
+                             .pair_count = static_cast<std::uint32_t>(light_->pair_count()),
+                             .wants_even = quantities_.sky_component,
+                             .receivers = &packet.receivers,
+                             .azimuths = azimuths_.view(),
+                             .all_look_up = packet.receivers.all_look_straight_up(),
+                             .sky_from = rows(profile.sky_from),
+                             .gap_from = rows(profile.gap_from),
+                             .gap_to = rows(profile.gap_to),
+                             .gap_share = rows(profile.gap_share),
+                             .sky = rows(profile.light_sky)},
+                            packet.rows.light.front().data());
+  LightOfCrowns::Sums lost{};
+  LightOfCrowns crowns(*light_, azimuths_, packet);
+  for (const DimmedSlopes& dimmed : packet.dimmed) crowns.add_lost(dimmed, lost);
+  packet.rows.lost.resize(light_->layers());
+  for (std::size_t n = 0; n < light_->layers(); ++n)
+    for (std::size_t l = 0; l < packet_lanes; ++l) packet.rows.lost[n][l] = light_of_layer(lost[l].data(), n);
 }
 
 FurtherQuantities::Lanes FurtherQuantities::LightParts::sum() const {
@@ -296,14 +261,13 @@ FurtherQuantities::LightParts FurtherQuantities::light_parts(const ProfiledPacke
   constexpr auto direct = static_cast<std::size_t>(LightLayer::direct), diffuse = static_cast<std::size_t>(LightLayer::diffuse),
                  uniform = static_cast<std::size_t>(LightLayer::uniform);
   const float on_level = light_->on_level()[diffuse];
+  const std::vector<PacketHorizon::Row>&sums = packet.rows.light, &lost = packet.rows.lost;
   LightParts parts{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
-    const float* const sums = &packet.rows.light[l * light_->layers()];
-    const float* const lost = &packet.rows.lost[l * light_->layers()];
-    const float diffuse_sky = with_the_sky_of(packet.sky.svf[l], sums[uniform], sums[diffuse], on_level);
-    parts.beside_profile[l] = on_level > 0.0F ? (diffuse_sky - sums[diffuse]) / on_level : 0.0F;
-    parts.direct[l] = std::max(0.0F, sums[direct] - lost[direct]);
-    parts.diffuse[l] = std::max(0.0F, diffuse_sky - lost[diffuse]);
+    const float diffuse_sky = with_the_sky_of(packet.sky.svf[l], sums[uniform][l], sums[diffuse][l], on_level);
+    parts.beside_profile[l] = on_level > 0.0F ? (diffuse_sky - sums[diffuse][l]) / on_level : 0.0F;
+    parts.direct[l] = std::max(0.0F, sums[direct][l] - lost[direct][l]);
+    parts.diffuse[l] = std::max(0.0F, diffuse_sky - lost[diffuse][l]);
     parts.reflected[l] = reflected(packet, l, direct) + reflected(packet, l, diffuse);
   }
   return parts;
@@ -322,9 +286,9 @@ FurtherQuantities::Lanes FurtherQuantities::total_light(const ProfiledPacket& pa
   const std::size_t layer = static_cast<std::size_t>(LightLayer::first_total) + total;
   Lanes column{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
-    const std::size_t place = l * light_->layers() + layer;
     const float beside_profile = parts.beside_profile[l] * light_->diffuse_of_totals()[total];
-    column[l] = std::max(0.0F, packet.rows.light[place] + beside_profile - packet.rows.lost[place]) + reflected(packet, l, layer);
+    column[l] =
+        std::max(0.0F, packet.rows.light[layer][l] + beside_profile - packet.rows.lost[layer][l]) + reflected(packet, l, layer);
   }
   return column;
 }
@@ -354,13 +318,13 @@ void FurtherQuantities::add_illuminance(const ProfiledPacket& packet, QuantityCo
 }
 
 void FurtherQuantities::add_sky_component(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const std::size_t layers = light_->layers();
+  constexpr auto overcast = static_cast<std::size_t>(LightLayer::overcast),
+                 uniform = static_cast<std::size_t>(LightLayer::uniform);
+  const std::vector<PacketHorizon::Row>& sums = packet.rows.light;
   Lanes column{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
-    const float* const sums = &packet.rows.light[l * layers];
-    const float sky = with_the_sky_of(packet.sky.svf[l], sums[static_cast<std::size_t>(LightLayer::uniform)],
-                                      sums[static_cast<std::size_t>(LightLayer::overcast)], 1.0F);
-    column[l] = std::max(0.0F, sky - packet.rows.lost[l * layers + static_cast<std::size_t>(LightLayer::overcast)]);
+    const float sky = with_the_sky_of(packet.sky.svf[l], sums[uniform][l], sums[overcast][l], 1.0F);
+    column[l] = std::max(0.0F, sky - packet.rows.lost[overcast][l]);
   }
   columns.add(column);
 }

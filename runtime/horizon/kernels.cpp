@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "horizon/gap_kernels.hpp"
+#include "horizon/light_kernels.hpp"
 #include "horizon/pixel_march.hpp"
 #include "horizon/wedge_kernels.hpp"
 
@@ -19,6 +20,7 @@ namespace farlod {
   extern const WedgeEndKernels wedge_end_kernels; \
   extern const WedgeSkyKernels wedge_sky_kernels; \
   extern const PixelKernels pixel_kernels;        \
+  extern const LightKernels light_kernels;        \
   }
 FARLOD_DECLARE_TARGET(baseline)
 #ifdef FARLOD_X86_TARGETS
@@ -43,13 +45,14 @@ std::vector<KernelTarget> find_runnable_kernels() {
 #ifdef FARLOD_X86_TARGETS
   if (runs_avx512())
     targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::gap_kernels, &avx512::wedge_end_kernels,
-                       &avx512::wedge_sky_kernels, &avx512::pixel_kernels});
+                       &avx512::wedge_sky_kernels, &avx512::pixel_kernels, &avx512::light_kernels});
   if (runs_avx2())
     targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::gap_kernels, &avx2::wedge_end_kernels,
-                       &avx2::wedge_sky_kernels, &avx2::pixel_kernels});
+                       &avx2::wedge_sky_kernels, &avx2::pixel_kernels, &avx2::light_kernels});
 #endif
   targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::gap_kernels,
-                     &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels, &baseline::pixel_kernels});
+                     &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels, &baseline::pixel_kernels,
+                     &baseline::light_kernels});
   return targets;
 }
 
@@ -87,6 +90,11 @@ const WedgeSkyKernels& wedge_sky_kernels() {
 
 const PixelKernels& pixel_kernels() {
   static const PixelKernels& fastest = *runnable_kernels().front().pixel;
+  return fastest;
+}
+
+const LightKernels& light_kernels() {
+  static const LightKernels& fastest = *runnable_kernels().front().light;
   return fastest;
 }
 

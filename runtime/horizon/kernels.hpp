@@ -110,6 +110,7 @@ struct GapKernels;
 struct WedgeEndKernels;
 struct WedgeSkyKernels;
 struct PixelKernels;
+struct LightKernels;
 
 /// All kernels, compiled for one target.
 struct KernelTarget {
@@ -120,6 +121,7 @@ struct KernelTarget {
   const WedgeEndKernels* wedge_end;
   const WedgeSkyKernels* wedge_sky;
   const PixelKernels* pixel;
+  const LightKernels* light;
 };
 
 /// The targets that this processor can run, the fastest first; the last one is `baseline`, which any can.
@@ -132,5 +134,6 @@ struct KernelTarget {
 [[nodiscard]] const WedgeEndKernels& wedge_end_kernels();
 [[nodiscard]] const WedgeSkyKernels& wedge_sky_kernels();
 [[nodiscard]] const PixelKernels& pixel_kernels();
+[[nodiscard]] const LightKernels& light_kernels();
 
 }  // namespace farlod

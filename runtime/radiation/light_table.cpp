@@ -232,19 +232,23 @@ struct Layers {
     of.push_back(std::move(light.direct));
   }
 };
+/// The uniform and the overcast sky have one azimuth.
 Layers layers_of(const Light& light, std::span<const double> turns, std::span<const unsigned> months, bool with_illuminance) {
-  const std::size_t size = turns.size() * LightTable::last_knot;
-  Layers layers{std::vector<Parts>(static_cast<std::size_t>(LightLayer::first_total), Parts(size)), {}};
+  Layers layers{std::vector<Parts>(static_cast<std::size_t>(LightLayer::first_total)), {}};
+  const auto of = [&](LightLayer layer) -> Parts& { return layers.of[static_cast<std::size_t>(layer)]; };
+  for (const LightLayer layer : {LightLayer::uniform, LightLayer::overcast}) of(layer).resize(LightTable::last_knot);
+  for (const LightLayer layer : {LightLayer::direct, LightLayer::diffuse}) of(layer).resize(turns.size() * LightTable::last_knot);
+  const double of_azimuth = 1.0 / static_cast<double>(turns.size());
   add_sky(
-      turns, 1.0, [](double, Angle at) { return overcast_radiance(Angle::degrees(90.0) - at); },
-      layers.of[static_cast<std::size_t>(LightLayer::overcast)]);
+      turns.first(1), of_azimuth, [](double, Angle at) { return overcast_radiance(Angle::degrees(90.0) - at); },
+      of(LightLayer::overcast));
   add_sky(
-      turns, 1.0, [](double, Angle) { return 1.0; }, layers.of[static_cast<std::size_t>(LightLayer::uniform)]);
+      turns.first(1), of_azimuth, [](double, Angle) { return 1.0; }, of(LightLayer::uniform));
   for (std::size_t n = 0; n < std::max<std::size_t>(1, months.size()); ++n) {
     DirectAndDiffuse part =
         light_of(light, turns, in_kwh_m2, [&](const LightInterval& i) { return months.empty() || i.month == months[n]; });
-    add(part.direct, layers.of[static_cast<std::size_t>(LightLayer::direct)]);
-    add(part.diffuse, layers.of[static_cast<std::size_t>(LightLayer::diffuse)]);
+    add(part.direct, of(LightLayer::direct));
+    add(part.diffuse, of(LightLayer::diffuse));
     if (!months.empty()) layers.add_total(std::move(part));
   }
   if (with_illuminance)
@@ -275,37 +279,34 @@ std::vector<unsigned> months_by_name(const Light& light) {
 }
 
 LightTable::LightTable(const Light& light, std::span<const double> turns, bool with_illuminance)
-    : layers_((static_cast<std::size_t>(LightLayer::first_total) + months_by_name(light).size() + (with_illuminance ? 1 : 0) +
-               group - 1) /
-              group * group),
-      months_(months_by_name(light)),
-      values_(turns.size() * (last_knot + 1) * 2 * layers_),
-      on_level_(layers_),
-      on_upright_(layers_) {
+    : months_(months_by_name(light)) {
   for (const LightInterval& interval : light.intervals) {
     hours_ += interval.hours;
     hours_of_illuminance_ += interval.diffuse_lux ? interval.hours : 0.0;
   }
-  Layers all_layers = layers_of(light, turns, months_, with_illuminance);
-  diffuse_of_totals_ = std::move(all_layers.diffuse_of_totals);
-  const std::vector<Parts>& layers = all_layers.of;
-  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+  Layers layers = layers_of(light, turns, months_, with_illuminance);
+  diffuse_of_totals_ = std::move(layers.diffuse_of_totals);
+  pairs_ = (layers.of.size() + 1) / 2;
+  even_.resize(last_knot + 1);
+  values_.resize(turns.size() * (last_knot + 1) * (pairs_ - 1));
+  for (std::size_t layer = 0; layer < layers.of.size(); ++layer) {
+    const bool is_even = layer / 2 == 0;
     Part all;
-    for (std::size_t k = 0; k < turns.size(); ++k) {
+    for (std::size_t k = 0; k < (is_even ? 1 : turns.size()); ++k) {
       Part above;
       for (std::size_t knot = last_knot; knot-- > 0;) {
-        above.along += layers[layer][k * last_knot + knot].along;
-        above.up += layers[layer][k * last_knot + knot].up;
-        float* const values = &values_[(k * (last_knot + 1) + knot) * 2 * layers_];
-        values[layer / group * 2 * group + layer % group] = static_cast<float>(above.along);
-        values[(layer / group * 2 + 1) * group + layer % group] = static_cast<float>(above.up);
+        const Part& part = layers.of[layer][k * last_knot + knot];
+        above = {above.along + part.along, above.up + part.up};
+        LightPair& pair = is_even ? even_[knot] : values_[(k * (last_knot + 1) + knot) * (pairs_ - 1) + layer / 2 - 1];
+        pair.along[layer % 2] = static_cast<float>(above.along);
+        pair.up[layer % 2] = static_cast<float>(above.up);
       }
-      all.along += above.along;
-      all.up += above.up;
+      all = {all.along + above.along, all.up + above.up};
     }
-    on_level_[layer] = static_cast<float>(all.up);
+    const double azimuths = is_even ? static_cast<double>(turns.size()) : 1.0;
+    on_level_.push_back(static_cast<float>(azimuths * all.up));
     // The mean of the positive part of a cosine over the turn is 1 / π
-    on_upright_[layer] = static_cast<float>(all.along / pi);
+    on_upright_.push_back(static_cast<float>(azimuths * all.along / pi));
   }
 }
 

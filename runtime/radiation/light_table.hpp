@@ -10,18 +10,24 @@
 #include <vector>
 
 #include "farlod/light.hpp"
+#include "horizon/light_kernels.hpp"
 
 namespace farlod {
 
 /// What a table has of each direction. Totals follow, direct and diffuse together: the energy of each month in kWh/m², and the
 /// illuminance in lx h.
 enum class LightLayer : std::size_t {
+  uniform,   ///< a sky of the same radiance everywhere: 1 on a level plane
+  overcast,  ///< the CIE's overcast sky: 1 on a level plane
   direct,    ///< kWh/m²
   diffuse,   ///< kWh/m²
-  overcast,  ///< the CIE's overcast sky: 1 on a level plane
-  uniform,   ///< a sky of the same radiance everywhere: 1 on a level plane
   first_total
 };
+
+/// What pairs of layers give a receiver whose normal has been applied.
+[[nodiscard]] inline float light_of_layer(const LightPair* pairs, std::size_t layer) {
+  return pairs[layer / 2].along[layer % 2] + pairs[layer / 2].up[layer % 2];
+}
 
 /// When an interval begins, as ISO 8601 has it without marks that names of columns may not have: `20260621T1000`.
 [[nodiscard]] std::string begin_text_of(const LightInterval& interval);
@@ -40,32 +46,42 @@ class LightTable {
   LightTable(const Light& light, std::span<const double> turns, bool with_illuminance = false);
 
   /// With those of twelve months, and illuminance.
-  static constexpr std::size_t most_layers = 20;
-  /// Layers of a knot, padded to whole groups of four.
-  [[nodiscard]] std::size_t layers() const { return layers_; }
+  static constexpr std::size_t most_pairs = 9;
+  [[nodiscard]] std::size_t layers() const { return 2 * pairs_; }
   /// Months that have layers: months_by_name.
   [[nodiscard]] std::span<const unsigned> months() const { return months_; }
 
-  /// Where a slope t, 0 or more, lies among the knots, from 0 to `last_knot`: they are even in t / (1 + t), and .22° apart at the
-  /// horizon and at the zenith, .45° at 45°.
-  static constexpr std::size_t last_knot = 256;
-  [[nodiscard]] static float place_of(float slope) {
+  static constexpr std::size_t last_knot = last_light_knot;
+  /// Where a slope lies: so far on from a knot to the next one.
+  struct Place {
+    std::size_t knot;
+    float part;
+  };
+  [[nodiscard]] static Place place_of(float slope) {
     const float finite = std::min(slope, 1e6F);
-    return static_cast<float>(last_knot) * (finite / (1.0F + finite));
-  }
-  /// What comes from above a place of an azimuth, for a normal's parts along the azimuth and up, of each layer.
-  void read_above(std::size_t azimuth, float place, float outward, float upward, float* layers) const {
+    const float place = static_cast<float>(last_knot) * (finite / (1.0F + finite));
     const std::size_t knot = std::min(static_cast<std::size_t>(place), last_knot - 1);
-    const float part = place - static_cast<float>(knot);
-    const float* here = &values_[(azimuth * (last_knot + 1) + knot) * 2 * layers_];
-    const float* above = here + 2 * layers_;
-    for (std::size_t n = 0; n < layers_; n += group, here += 2 * group, above += 2 * group, layers += group) {
-      for (std::size_t k = 0; k < group; ++k)
-        layers[k] = upward * (here[group + k] + part * (above[group + k] - here[group + k]));
-      if (outward == 0.0F) continue;
-      for (std::size_t k = 0; k < group; ++k) layers[k] += outward * (here[k] + part * (above[k] - here[k]));
-    }
+    return {knot, place - static_cast<float>(knot)};
   }
+  /// Adds what comes from above a place of an azimuth to pairs of layers(), for a normal's parts along the azimuth and up.
+  void add_above(std::size_t azimuth, Place place, float outward, float upward, LightPair* sums) const {
+    add(&even_[place.knot], 1, place.part, outward, upward, sums[0]);
+    const std::size_t of_azimuth = pairs_ - 1;
+    const LightPair* const here = &values_[(azimuth * (last_knot + 1) + place.knot) * of_azimuth];
+    for (std::size_t n = 0; n < of_azimuth; ++n) add(here + n, of_azimuth, place.part, outward, upward, sums[n + 1]);
+  }
+  /// The uniform sky above a place of any azimuth.
+  [[nodiscard]] float uniform_above(Place place, float outward, float upward) const {
+    const LightPair &here = even_[place.knot], &above = even_[place.knot + 1];
+    constexpr auto layer = static_cast<std::size_t>(LightLayer::uniform);
+    return outward * (here.along[layer] + place.part * (above.along[layer] - here.along[layer])) +
+           upward * (here.up[layer] + place.part * (above.up[layer] - here.up[layer]));
+  }
+
+  /// What sums of all azimuths are made of: even() and pairs() of a LightScene.
+  [[nodiscard]] const LightPair* even() const { return even_.data(); }
+  [[nodiscard]] const LightPair* pairs() const { return values_.data(); }
+  [[nodiscard]] std::size_t pair_count() const { return pairs_ - 1; }
 
   /// On planes in the open, of each layer: a level one, and the mean of all upright ones.
   [[nodiscard]] std::span<const float> on_level() const { return on_level_; }
@@ -76,13 +92,20 @@ class LightTable {
   [[nodiscard]] double hours_of_illuminance() const { return hours_of_illuminance_; }
 
  private:
-  std::size_t layers_;
+  /// Adds a pair between a knot and the next one, which lies `step` behind it.
+  static void add(const LightPair* here, std::size_t step, float part, float outward, float upward, LightPair& sum) {
+    const LightPair* const above = here + step;
+    for (std::size_t k = 0; k < 2; ++k) {
+      sum.along[k] += outward * (here->along[k] + part * (above->along[k] - here->along[k]));
+      sum.up[k] += upward * (here->up[k] + part * (above->up[k] - here->up[k]));
+    }
+  }
+
+  std::size_t pairs_ = 0;
   std::vector<unsigned> months_;
   double hours_ = 0.0, hours_of_illuminance_ = 0.0;
-  /// Layers that lie side by side, for vectors of the processor.
-  static constexpr std::size_t group = 4;
-  /// values_[azimuth][knot][group of layers]: the integrals along the azimuth of four layers, then those upwards.
-  std::vector<float> values_;
+  std::vector<LightPair> even_;    ///< even_[knot]: the uniform and the overcast sky, alike at all azimuths
+  std::vector<LightPair> values_;  ///< values_[azimuth][knot][pair - 1]
   std::vector<float> on_level_, on_upright_, diffuse_of_totals_;
 };
 

@@ -34,19 +34,19 @@ Point3d tilted(double tilt_deg, double azimuth_deg) {
 /// What falls on a plane above a horizon that is even.
 std::vector<float> on_plane(const LightTable& table, const std::vector<double>& at, const Point3d& normal,
                             double horizon_slope = 0.0) {
-  std::vector<float> sums(table.layers());
+  std::array<LightPair, LightTable::most_pairs> sums{};
   for (std::size_t k = 0; k < at.size(); ++k) {
     const double turn = 2.0 * pi * at[k];
     const double outward = normal.x * std::sin(turn) + normal.y * std::cos(turn);
     // o + w t > 0
     double from = horizon_slope;
     if (outward <= 0.0) from = normal.z > 1e-9 ? std::max(from, -outward / normal.z) : 1e9;
-    std::vector<float> layers(table.layers());
-    table.read_above(k, LightTable::place_of(static_cast<float>(from)), static_cast<float>(outward), static_cast<float>(normal.z),
-                     layers.data());
-    for (std::size_t n = 0; n < sums.size(); ++n) sums[n] += layers[n];
+    table.add_above(k, LightTable::place_of(static_cast<float>(from)), static_cast<float>(outward), static_cast<float>(normal.z),
+                    sums.data());
   }
-  return sums;
+  std::vector<float> layers;
+  for (std::size_t n = 0; n < table.layers(); ++n) layers.push_back(light_of_layer(sums.data(), n));
+  return layers;
 }
 
 constexpr auto direct = static_cast<std::size_t>(LightLayer::direct), diffuse = static_cast<std::size_t>(LightLayer::diffuse),
