@@ -284,10 +284,19 @@ void print_values(const EvaluationSummary& run, const std::string& quantity) {
   if (run.svf_mean)
     fmt::print("{}: min {:.4f}, mean {:.4f}, median {:.3f}, max {:.4f}{}\n", quantity, *run.svf_min, *run.svf_mean,
                *run.svf_median, *run.svf_max, mean_near_buildings(run));
-  if (run.svf_total)
-    fmt::print("svf_total: min {:.4f}, mean {:.4f}, max {:.4f}\n", run.svf_total->min, run.svf_total->mean, run.svf_total->max);
   if (run.svf_mean && *run.svf_min == *run.svf_max && run.receivers > 100)
     fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
+}
+
+/// Of the further columns, unless they are too many to be read.
+void print_further(const WrittenRun& written) {
+  constexpr std::size_t most_columns = 12;
+  const std::vector<std::optional<ValueRange>>& ranges = written.summary.further;
+  if (ranges.size() > most_columns) return;
+  for (std::size_t k = 0; k < ranges.size(); ++k)
+    if (ranges[k])
+      fmt::print("{}: min {:.4g}, mean {:.4g}, max {:.4g}\n", written.further_columns[k], ranges[k]->min, ranges[k]->mean,
+                 ranges[k]->max);
 }
 
 void print_errors(const char* of_what, const ErrorSummary& e) {
@@ -329,6 +338,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   if (run.outside_of_region > 0) fmt::print("; {} outside of the mask or box", run.outside_of_region);
   fmt::print("\n");
   print_values(run, quantity_name(asked.weight));
+  print_further(written);
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid: horizons of the whole city answered them, as well as the others.\n",
                run.outside_of_grid);

@@ -83,22 +83,26 @@ bool fits_picture(const RawQuantities& raw) {
 std::string drawn_quantity(const RawQuantities& raw) {
   const std::vector<std::string> words = quantity_words_in(raw);
   if (!words.empty()) return words.back();
-  if (!raw.sun.empty()) return "sunlit";
-  return raw.horizons > 0 ? "horizon" : raw.sky_patches > 0 ? "sky_patches" : "";
+  return !raw.sun.empty() ? "" : raw.horizons > 0 ? "horizon" : raw.sky_patches > 0 ? "sky_patches" : "";
 }
 
 std::size_t drawn_band_of(const SvfOptions& options, const std::vector<ColumnDescription>& bands) {
-  const std::string name = options.drawn_quantity.empty() ? "svf_total" : first_column_of(options.drawn_quantity);
-  // Names of horizons may have decimals
-  const auto found = std::ranges::find_if(bands, [&](const ColumnDescription& band) { return band.name.starts_with(name); });
-  return found == bands.end() ? 0 : static_cast<std::size_t>(found - bands.begin());
+  // What --sun asks for, and else what a city with trees has by itself: with them first
+  std::vector<std::string> names{"sunlit_total_h", "sunlit_h", "svf_total"};
+  if (!options.drawn_quantity.empty()) names = {first_column_of(options.drawn_quantity)};
+  for (const std::string& name : names) {
+    // Names of horizons may have decimals
+    const auto found = std::ranges::find_if(bands, [&](const ColumnDescription& band) { return band.name.starts_with(name); });
+    if (found != bands.end()) return static_cast<std::size_t>(found - bands.begin());
+  }
+  return 0;
 }
 
 void add_picture_options(CLI::App& app, RawPictures& raw, SvfOptions& o) {
   app.add_option(
          "--preview", o.preview_file,
          "Also draw the raster as this picture (PNG, SVG or PDF), with a colour scale: the quantity that is named last, else "
-         "svf_total where it comes by itself, else svf")
+         "hours of --sun, svf_total where it comes by itself, or svf")
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--histogram", o.histogram_file,

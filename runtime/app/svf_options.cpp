@@ -331,7 +331,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   o.light = resolved_light(raw.light, requested.further);
   if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))
     throw CLI::ValidationError("--irradiation-threshold", "it goes with --surfaces and --quantity irradiation");
-  o.names_quantities = requested.any() || !raw.quantities.quantities.empty();
+  o.names_quantities = !raw.quantities.quantities.empty() || raw.quantities.horizons > 0 || raw.quantities.sky_patches > 0;
   o.drawn_quantity = drawn_quantity(raw.quantities);
   o.evaluation.further = std::move(requested.further);
   o.sunshine = requested.sunshine;

@@ -98,6 +98,9 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
             {"peak_memory_mib", peak_memory_mib()},
             {"svf", values_json(run)}};
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
+  for (std::size_t k = 0; k < run.further.size(); ++k)
+    if (const auto& range = run.further[k])
+      j["values"][written.further_columns[k]] = {{"min", range->min}, {"mean", range->mean}, {"max", range->max}};
   if (written.light) j["light"] = json_of(*written.light, *options.evaluation.further.light, *options.light);
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);

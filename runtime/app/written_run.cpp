@@ -345,7 +345,7 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
   const PackageDescription& city = package.description();
   const std::string crs = city.epsg ? "EPSG:" + std::to_string(*city.epsg) : city.crs_name;
   const SkyCaption caption{quantity_name(options.evaluation.weight),
-                           fmt::format("{} ({}), {:.2f} m above sea level", coordinates, crs, hemisphere->height_m),
+                           fmt::format("{} ({}), z = {:.2f} m", coordinates, crs, hemisphere->height_m),
                            value_of(*hemisphere, options, "svf_total")};
   WrittenRun written{hemisphere->summary, {options.output}};
   const std::optional<SunOfSky> sun = sun_of_sky(package, options, *hemisphere);

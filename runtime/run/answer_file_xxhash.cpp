@@ -51,19 +51,24 @@ AnswerKey key_from(const std::string& text) {
   return key;
 }
 
-/// "--height was 1.5, and is 2"; empty if nothing differs.
+/// "--height was 1.5, and is 2": a value that differs, if any does, for what is given in one run alone may follow from that.
+/// Empty if nothing differs.
 std::string difference(const AnswerKey& was, const AnswerKey& is) {
   const std::map<std::string, std::string> before(was.begin(), was.end()), now(is.begin(), is.end());
   std::set<std::string> names;
   for (const auto* values : {&before, &now})
     for (const auto& [name, value] : *values) names.insert(name);
+  std::string first;
   for (const std::string& name : names) {
     const auto old_value = before.find(name), value = now.find(name);
-    if (old_value == before.end()) return name + " was not given, and is " + value->second;
-    if (value == now.end()) return name + " was " + old_value->second + ", and is not given";
-    if (old_value->second != value->second) return name + " was " + old_value->second + ", and is " + value->second;
+    const bool was_given = old_value != before.end(), is_given = value != now.end();
+    if (was_given && is_given && old_value->second != value->second)
+      return name + " was " + old_value->second + ", and is " + value->second;
+    if (!first.empty() || (was_given && is_given)) continue;
+    first =
+        was_given ? name + " was " + old_value->second + ", and is not given" : name + " was not given, and is " + value->second;
   }
-  return {};
+  return first;
 }
 
 /// A descriptor of a file, with reading and writing at places.

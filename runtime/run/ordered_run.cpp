@@ -76,7 +76,8 @@ void require_bounds_known(const PackageInUse& package, const ResolvedSettings& s
 /// Counts and statistics of the cells that were stored so far.
 struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
-  SvfStatistics statistics, near_buildings, totals;
+  SvfStatistics statistics, near_buildings;
+  std::vector<SvfStatistics> further_statistics;
   SvfDistribution distribution;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
   RayCounts rays;
@@ -87,7 +88,9 @@ struct Tally {
     statistics.add(statistics_of(cell.values));
     near_buildings.add(statistics_near_buildings(cell.receivers, cell.values));
     distribution.add(cell.values.svf);
-    totals.add(total_statistics_of(cell.values, further));
+    const std::vector<SvfStatistics> of_further = further_statistics_of(cell.values, further);
+    further_statistics.resize(of_further.size());
+    for (std::size_t k = 0; k < of_further.size(); ++k) further_statistics[k].add(of_further[k]);
     outside_of_region += cell.receivers.outside_of_region;
     rays.by_rays += cell.values.counts.by_rays;
     rays.retraced_rays += cell.values.counts.retraced_rays;
@@ -97,7 +100,7 @@ struct Tally {
   void store(const ResolvedSettings& settings, EvaluationSummary& summary) const {
     store_statistics(statistics, distribution, settings.bounds, summary);
     store_statistics_near_buildings(near_buildings, summary);
-    store_statistics_of_totals(totals, settings.sky.further, summary);
+    store_further_statistics(further_statistics, settings.sky.further, summary);
     summary.by_rays = rays.by_rays;
     summary.retraced_rays = rays.retraced_rays;
   }

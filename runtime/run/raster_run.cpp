@@ -201,20 +201,6 @@ std::size_t bytes_of(const RasterPlan& plan, bool bounds, std::size_t further_ba
   return plan.columns * plan.rows * ((bounds ? 3 : 1) + further_bands) * sizeof(float);
 }
 
-/// The number of the values, and their range, where there is one.
-std::pair<std::size_t, ValueRange> range_of(const std::vector<float>& values) {
-  std::size_t count = 0;
-  ValueRange range{1.0, 0.0, 0.0};
-  for (const float v : values) {
-    if (std::isnan(v)) continue;
-    const double value = static_cast<double>(v);
-    ++count;
-    range = {std::min(range.min, value), range.mean + value, std::max(range.max, value)};
-  }
-  if (count > 0) range.mean /= static_cast<double>(count);
-  return {count, range};
-}
-
 double median_of(std::vector<float> values) {
   std::erase_if(values, [](float value) { return std::isnan(value); });
   SvfDistribution distribution;
@@ -250,14 +236,17 @@ class WindowAnswers {
     }
   }
   [[nodiscard]] Raster take(EvaluationSummary summary) {
-    const auto [count, svf] = range_of(raster_.svf);
-    summary.receivers = count;
+    const SvfStatistics svf = statistics_of(raster_.svf);
     summary.svf_min = summary.svf_mean = summary.svf_max = summary.svf_median = std::nullopt;
-    if (count > 0) summary.svf_min = svf.min, summary.svf_mean = svf.mean, summary.svf_max = svf.max;
-    if (count > 0) summary.svf_median = median_of(raster_.svf);
+    summary.receivers = svf.count;
+    if (const auto range = svf.range()) {
+      summary.svf_min = range->min, summary.svf_mean = range->mean, summary.svf_max = range->max;
+      summary.svf_median = median_of(raster_.svf);
+    }
     store_statistics_near_buildings(near_buildings_, summary);
-    if (count == 0) summary.svf_total.reset();
-    if (summary.svf_total) summary.svf_total = range_of(raster_.further[total_band_]).second;
+    summary.further.clear();
+    for (const std::vector<float>& band : raster_.further) summary.further.push_back(statistics_of(band).range());
+    if (summary.svf_total) summary.svf_total = summary.further[total_band_];
     summary.no_data = raster_.svf.size() - summary.receivers;
     summary.beyond_grid = 0;
     raster_.summary = std::move(summary);

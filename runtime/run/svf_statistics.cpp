@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/svf_statistics.hpp"
 
+#include <cmath>
 #include <optional>
 
 #include "evaluate/quantity_table.hpp"
@@ -21,6 +22,13 @@ double SvfDistribution::median() const {
   return (static_cast<double>(part) + 0.5) / static_cast<double>(parts);
 }
 
+SvfStatistics statistics_of(std::span<const float> values) {
+  SvfStatistics statistics;
+  for (const float value : values)
+    if (!std::isnan(value)) statistics.add(value);
+  return statistics;
+}
+
 SvfStatistics statistics_of(const SvfValues& values) {
   SvfStatistics statistics;
   for (const float svf : values.svf) statistics.add(svf);
@@ -35,23 +43,25 @@ SvfStatistics statistics_near_buildings(const CellReceivers& cell, const SvfValu
   return statistics;
 }
 
-SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further) {
-  SvfStatistics statistics;
+std::vector<SvfStatistics> further_statistics_of(const SvfValues& values, const Quantities& further) {
+  std::vector<SvfStatistics> statistics(values.further_columns);
   const TotalColumns columns = total_columns_of(further);
-  for (std::size_t n = 0; n < values.svf.size() && columns.total; ++n) {
+  for (std::size_t n = 0; n < values.svf.size(); ++n) {
     const std::span<const float> row = values.further_of(n);
-    statistics.add(row[*columns.total]);
-    if (columns.low) statistics.add_width(row[*columns.low + 1] - row[*columns.low]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      if (!std::isnan(row[k])) statistics[k].add(row[k]);
+    if (columns.total && columns.low) statistics[*columns.total].add_width(row[*columns.low + 1] - row[*columns.low]);
   }
   return statistics;
 }
 
 void store_statistics(const SvfStatistics& all, const SvfDistribution& values, bool bounds, EvaluationSummary& run) {
   run.receivers = all.count;
-  if (all.count == 0) return;
-  run.svf_min = all.min;
-  run.svf_max = all.max;
-  run.svf_mean = all.sum / static_cast<double>(all.count);
+  const std::optional<ValueRange> range = all.range();
+  if (!range) return;
+  run.svf_min = range->min;
+  run.svf_mean = range->mean;
+  run.svf_max = range->max;
   run.svf_median = values.median();
   if (bounds) run.bounds = all.width();
 }
@@ -61,10 +71,12 @@ void store_statistics_near_buildings(const SvfStatistics& near, EvaluationSummar
   run.svf_mean_near_buildings = near.count > 0 ? std::optional(near.sum / static_cast<double>(near.count)) : std::nullopt;
 }
 
-void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run) {
-  if (all.count == 0) return;
-  run.svf_total = {all.min, all.sum / static_cast<double>(all.count), all.max};
-  if (further.svf_total_bounds) run.svf_total_bounds = all.width();
+void store_further_statistics(std::span<const SvfStatistics> all, const Quantities& further, EvaluationSummary& run) {
+  for (const SvfStatistics& column : all) run.further.push_back(column.range());
+  const std::optional<std::size_t> total = total_columns_of(further).total;
+  if (!total || run.further.empty()) return;
+  run.svf_total = run.further[*total];
+  if (run.svf_total && further.svf_total_bounds) run.svf_total_bounds = all[*total].width();
 }
 
 }  // namespace farlod

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,12 +15,12 @@
 
 namespace farlod {
 
-/// Statistics of the sky view factors of some cells, with crowns or without. Sums are added cell by cell, in order, so that the
-/// mean does not depend on the number of threads.
+/// Statistics of the values of one column of some cells: sky view factors, or others. Sums are added cell by cell, in order, so
+/// that the mean does not depend on the number of threads.
 struct SvfStatistics {
   std::size_t count = 0;
   double sum = 0.0;
-  float min = 1.0F, max = 0.0F;
+  float min = std::numeric_limits<float>::infinity(), max = -std::numeric_limits<float>::infinity();
   double width_sum = 0.0;
   float width_max = 0.0F;
 
@@ -31,6 +33,10 @@ struct SvfStatistics {
   void add_width(float width) {
     width_sum += width;
     width_max = std::max(width_max, width);
+  }
+  /// Nothing where there is no value.
+  [[nodiscard]] std::optional<ValueRange> range() const {
+    return count > 0 ? std::optional(ValueRange{min, sum / static_cast<double>(count), max}) : std::nullopt;
   }
   [[nodiscard]] BoundsWidth width() const { return {width_sum / static_cast<double>(count), width_max}; }
   void add(const SvfStatistics& o) {
@@ -53,14 +59,16 @@ class SvfDistribution {
   std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(parts);
 };
 
+/// Without those that are no data.
+[[nodiscard]] SvfStatistics statistics_of(std::span<const float> values);
 [[nodiscard]] SvfStatistics statistics_of(const SvfValues& values);
 /// Those of the receivers near buildings, where that was asked for.
 [[nodiscard]] SvfStatistics statistics_near_buildings(const CellReceivers& cell, const SvfValues& values);
-/// The statistics of the total sky view factors among the further values, where they are.
-[[nodiscard]] SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further);
+/// Those of each column of further values.
+[[nodiscard]] std::vector<SvfStatistics> further_statistics_of(const SvfValues& values, const Quantities& further);
 
 void store_statistics(const SvfStatistics& all, const SvfDistribution& values, bool bounds, EvaluationSummary& run);
 void store_statistics_near_buildings(const SvfStatistics& near, EvaluationSummary& run);
-void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run);
+void store_further_statistics(std::span<const SvfStatistics> all, const Quantities& further, EvaluationSummary& run);
 
 }  // namespace farlod

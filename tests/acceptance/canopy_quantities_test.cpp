@@ -114,7 +114,8 @@ TEST_F(TreeTown, HasHoursOfSunshinePastItsCrownsBesideThoseOfTheOpen) {
   const std::string day = "farlod-svf b.farlod -o o.csv --sun 2026-06-21 --at " + under_trees;
   folder.must(day);
   const CsvTable row = table("o.csv");
-  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "sunlit_h", "sunlit_total_h"));
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "svf_total", "svfveg",
+                                        "sunlit_h", "sunlit_total_h"));
   EXPECT_LT(row.number(0, "sunlit_total_h"), row.number(0, "sunlit_h") - 0.5) << "a tree stands to the side";
   folder.must(day + " --transmissivity 1");
   EXPECT_EQ(table("o.csv").number(0, "sunlit_total_h"), row.number(0, "sunlit_h"));
@@ -141,6 +142,9 @@ TEST_F(TreeTown, PicturesShowTheTotalWhereNobodySaysWhatToDraw) {
   EXPECT_TRUE(total == picture_of("o.tif --preview o.png"));
   EXPECT_TRUE(total == picture_of("o.tif --preview o.png --quantity svfaveg,svf_total"));
   EXPECT_FALSE(total == picture_of("o.png --quantity svf"));
+  const std::string hours = picture_of("o.tif --sun 2026-06-21 --preview o.png");
+  EXPECT_TRUE(hours == picture_of("o.tif --sun 2026-06-21 --quantity sunlit,sunlit_total --preview o.png"));
+  EXPECT_FALSE(hours == picture_of("o.tif --sun 2026-06-21 --quantity sunlit --preview o.png"));
 }
 
 TEST_F(TreeTown, HasTheSameSkyViewFactorsAsTheTownWithoutTrees) {

@@ -107,6 +107,7 @@ TEST_F(AnswerFiles, OfAnotherRunAreRefusedWithBothValues) {
   EXPECT_THAT(refusal({{"--grid", "2"}}), HasSubstr("--height was 1.5, and is not given"));
   EXPECT_THAT(refusal({{"--grid", "2"}, {"--height", "1.5"}, {"--bounds", "on"}}),
               HasSubstr("--bounds was not given, and is on"));
+  EXPECT_THAT(refusal({{"--bounds", "on"}, {"--grid", "3"}, {"--height", "1.5"}}), HasSubstr("--grid was 2, and is 3"));
   EXPECT_EQ(refusal(some_key), "no refusal");
   const AnswerFile other = opened({{"--grid", "3"}}, OfAnotherKey::replace);
   EXPECT_EQ(other.cells(), 0U);

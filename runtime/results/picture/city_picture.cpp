@@ -128,7 +128,7 @@ void add_scales(Drawing& drawing, Pixel place, const CityScale& scale) {
   words_at(34, "above ground");
   if (scale.top_m > 0.0) add_scale(drawing, {place.x, place.y + 48}, {width, 200}, colour_of_height, ticks);
   words_at(294, "Ground");
-  words_at(314, "above the sea");
+  words_at(314, "z");
   add_scale(
       drawing, {place.x, place.y + 328}, {width, 100},
       [&](double share) { return colour_of_ground(share_of_ground(std::lerp(scale.low_m, scale.high_m, share), scale)); },
@@ -199,7 +199,7 @@ Colour colour_in_city(double ground_m, double highest_m, const CityScale& scale)
 PreviewLayout city_layout(const RasterPlan& plan) {
   PreviewLayout layout = preview_layout({plan.columns, std::max(plan.rows, side_height)});
   layout.map_size = {plan.columns, plan.rows};
-  layout.picture.width += 32;  // "above the sea"
+  layout.picture.width += 32;  // "above ground"
   layout.picture.height += static_cast<std::size_t>(3.0 * step_of_rows);
   return layout;
 }

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
+
+#include "results/raster/zip_file.hpp"
 
 namespace farlod {
 
@@ -26,8 +26,8 @@ struct NpzArray {
   [[nodiscard]] std::size_t row_bytes() const { return columns * depth; }
 };
 
-/// Writes a ZIP file of compressed arrays that NumPy opens (numpy.load), larger than 4 GiB or not. The same arrays give the same
-/// bytes, whatever the number of threads: members have the first time that a ZIP file can name.
+/// Writes a ZIP file of compressed arrays that NumPy opens (numpy.load). The same arrays give the same bytes, whatever the number
+/// of threads.
 class NpzFile {
  public:
   /// Writes to `path`. All functions throw OutputError, which names `result`.
@@ -49,21 +49,10 @@ class NpzFile {
   }
 
  private:
-  struct Member {
-    std::string name;
-    std::uint64_t place = 0, bytes = 0, compressed_bytes = 0;
-    std::uint32_t crc = 0;
-  };
-  void write(std::span<const std::uint8_t> bytes);
-  void write_piece(Member& member, std::span<const std::uint8_t> compressed, std::uint64_t bytes, std::uint32_t crc);
-  void write_rows(const NpzArray& array, Member& member);
-  void write_central_directory();
+  void write_rows(const NpzArray& array);
 
-  std::filesystem::path result_;
   std::size_t threads_;
-  std::ofstream stream_;
-  std::uint64_t end_ = 0;
-  std::vector<Member> members_;
+  ZipFile zip_;
 };
 
 }  // namespace farlod

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <span>
@@ -23,6 +22,7 @@
 #include "results/atomic_file.hpp"
 #include "results/crs_gdal.hpp"
 #include "results/raster/raster_writers.hpp"
+#include "results/raster/zip_file.hpp"
 
 namespace farlod {
 namespace {
@@ -189,49 +189,7 @@ RasterTile tile_of_band(TilePlace place, std::span<const float> values) {
   return tile;
 }
 
-/// A ZIP file that is being written by GDAL.
-class ZipFile {
- public:
-  ZipFile(const std::filesystem::path& path, const std::filesystem::path& result)
-      : result_(result), zip_(CPLCreateZip(path.c_str(), nullptr)) {
-    if (zip_ == nullptr) fail();
-  }
-  ~ZipFile() {
-    if (zip_ != nullptr) CPLCloseZip(zip_);
-  }
-  ZipFile(const ZipFile&) = delete;
-  ZipFile& operator=(const ZipFile&) = delete;
-
-  /// The file as it is: the blocks of a GeoTIFF are compressed already.
-  void add(const std::filesystem::path& file) {
-    CPLStringList options;
-    options.SetNameValue("COMPRESSED", "NO");
-    options.SetNameValue("TIMESTAMP", "315532800");  // the first second that a ZIP file can name, where GDAL asks (3.7 and later)
-    must(CPLCreateFileInZip(zip_, file.filename().c_str(), options.List()));
-    std::ifstream bytes(file, std::ios::binary);
-    std::vector<char> piece(zip_bytes_at_once);
-    while (bytes.read(piece.data(), static_cast<std::streamsize>(piece.size())) || bytes.gcount() > 0)
-      must(CPLWriteFileInZip(zip_, piece.data(), static_cast<int>(bytes.gcount())));
-    if (!bytes.eof()) fail();
-    must(CPLCloseFileInZip(zip_));
-  }
-  void close() {
-    void* const zip = zip_;
-    zip_ = nullptr;
-    must(CPLCloseZip(zip));
-  }
-
- private:
-  void must(CPLErr error) const {
-    if (error != CE_None) fail();
-  }
-  [[noreturn]] void fail() const { throw OutputError(result_, errors_.any() ? errors_.last() : "the disk refused the data"); }
-
-  GdalErrors errors_;
-  std::filesystem::path result_;
-  void* zip_;
-};
-
+/// GeoTIFFs are stored as they are: their blocks are compressed already.
 class ZippedGeotiffWriter final : public RasterWriter {
  public:
   ZippedGeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path)

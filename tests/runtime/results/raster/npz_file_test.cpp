@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "farlod/error.hpp"
+#include "results/raster/zip_file.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -83,6 +84,26 @@ TEST_F(NpzFileTest, IsTheSameForAnyNumberOfThreads) {
   EXPECT_GT(one.size(), 1000U);
   EXPECT_EQ(one, bytes_of(written("three.npz", 3)));
   EXPECT_EQ(one, bytes_of(written("many.npz", 16)));
+}
+
+TEST_F(NpzFileTest, AndOtherZipFilesHaveMembersOfTheFirstDayThatTheyCanName) {
+  const std::filesystem::path whole = folder.path() / "whole.tif", path = folder.path() / "a.zip";
+  const std::string bytes = bytes_of(written("large.npz", 1)) + std::string(2 << 20, 'x');
+  std::ofstream(whole, std::ios::binary) << bytes;
+  ZipFile file(path, path);
+  file.add(whole);
+  file.add(whole);
+  file.close();
+  EXPECT_EQ(member_of(path, "whole.tif"), bytes);
+  // Method, time and day of the first member, and of both in the directory
+  const std::string stored_on_1_january_1980("\0\0\0\0\x21\0", 6), zip = bytes_of(path);
+  EXPECT_EQ(zip.substr(8, 6), stored_on_1_january_1980);
+  std::size_t entries = 0;
+  for (std::size_t place = zip.find("PK\x01\x02", zip.size() - 400); place != std::string::npos; ++entries) {
+    EXPECT_EQ(zip.substr(place + 10, 6), stored_on_1_january_1980);
+    place = zip.find("PK\x01\x02", place + 1);
+  }
+  EXPECT_EQ(entries, 2U);
 }
 
 TEST_F(NpzFileTest, ADiskThatRefusesIsTold) {
