@@ -47,7 +47,10 @@ def run(*command: object, **environment: str) -> Run:
     """Throws ProgramFailed."""
     words = [str(word) for word in command]
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-    done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, **environment}, check=False)
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, **environment}, check=False)
+    except FileNotFoundError:
+        raise ProgramFailed(f"there is no program {words[0]}: build the project, or give --bin, the folder of the programs") from None
     wall_s, after = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode != 0:
         raise ProgramFailed(f"{' '.join(words)} ended with {done.returncode}\n{done.stdout}{done.stderr}")

@@ -18,7 +18,7 @@ using package::HeightsHeader;
 bool package::are_natural_relief(const SurfacePixels& p, std::uint64_t walls, std::uint64_t triangles) {
   // With fewer triangles for each pixel, edges are drawn sooner: blocks on level ground have 0.2, natural relief 2. With more
   // walls, edges tell better where horizons jump, and are not slower: surveys of towns have 0.1
-  constexpr double least_triangles_per_pixel = 0.5, most_walls_per_pixel = 0.02;
+  constexpr double least_triangles_per_pixel = 0.5, most_walls_per_pixel = 5.0;
   // More are too many to be counted by a march
   constexpr std::uint32_t most_along = std::uint32_t{1} << 28;
   if (std::max(p.columns, p.rows) > most_along) return false;

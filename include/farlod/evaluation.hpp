@@ -78,6 +78,9 @@ struct EvaluationSettings {
   bool dry_run = false;
   /// If not null, receivers outside of it have no value and cost next to nothing: EvaluationSummary::outside_of_region.
   std::shared_ptr<const Region> region = nullptr;
+  /// Pixels of a raster that are farther in the plan from all roofs and walls, at most `largest_within_m`, have no value either,
+  /// and are counted there.
+  std::optional<double> within_m = std::nullopt;
   /// What is computed beside the sky view factor. All but horizons and sunshine need SkyWeight::cosine.
   Quantities further = {};
 };
@@ -150,6 +153,9 @@ struct RunEstimate {
   double seconds = 0.0;                 ///< of wall clock, without files
   double memory_bytes = 0.0;            ///< what RunSettings::memory_limit_mib is compared with
 };
+
+/// More is no question of streets and yards, and would take long.
+inline constexpr double largest_within_m = 1000.0;
 
 /// Within this distance, receivers are near buildings: how much open ground there is around a city, their mean does not tell.
 inline constexpr double near_buildings_m = 20.0;

@@ -124,6 +124,7 @@ void add_evaluation_settings(py::module_& module) {
       .def_readwrite("bounds", &EvaluationSettings::bounds)
       .def_readwrite("verify", &EvaluationSettings::verify)
       .def_readwrite("dry_run", &EvaluationSettings::dry_run)
+      .def_readwrite("within_m", &EvaluationSettings::within_m)
       .def_readwrite("further", &EvaluationSettings::further);
 }
 

@@ -113,6 +113,7 @@ AnswerKey key_of(const SvfOptions& o) {
   // The frame of a raster tells its box
   if (o.bbox_projected && o.source != ReceiverSource::grid) key.emplace_back("--bbox", text_of(*o.bbox_projected));
   if (!o.mask_file.empty()) key.emplace_back("--mask", name_of_file(o.mask_file));
+  if (o.evaluation.within_m) key.emplace_back("--within", fmt::format("{:g}", *o.evaluation.within_m));
   return key;
 }
 

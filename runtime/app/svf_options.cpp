@@ -112,6 +112,10 @@ void add_placing_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--mask", raw.mask, "Only receivers in the polygons of this vector file")
       ->type_name(file_value)
       ->group("Placing");
+  app.add_option("--within", o.evaluation.within_m,
+                 "Only pixels that are at most so many metres from a building in the plan: those of pavements are within 3")
+      ->check(between(0.0, largest_within_m))
+      ->group("Placing");
 }
 
 void add_output_options(CLI::App& app, RawOptions& raw) {
@@ -227,6 +231,8 @@ void resolve_part(const RawOptions& raw, SvfOptions& o) {
   o.mask_file = raw.mask;
   if (o.source == ReceiverSource::at && !(raw.mask.empty() && raw.bbox.empty()))
     throw CLI::ValidationError(raw.mask.empty() ? "--bbox" : "--mask", "it goes with --grid, --points, --along and --surfaces");
+  if (o.evaluation.within_m && o.source != ReceiverSource::grid)
+    throw CLI::ValidationError("--within", "it goes with --grid and --grid-like");
   if (raw.bbox.empty()) return;
   if (!raw.grid_like.empty())
     throw CLI::ValidationError("--bbox", "the raster of --grid-like says where its pixels are: give one of the two");

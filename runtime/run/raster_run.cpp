@@ -101,26 +101,37 @@ template <class Store>
 class PixelCells final : public CellsOfRun {
  public:
   PixelCells(const PackageReader& package, const RasterReceivers& pixels, const std::vector<Cell>& cells, const Placing& placing,
-             const std::stop_token& stop, const Store& store)
-      : package_(package), pixels_(pixels), cells_(cells), placing_(placing), stop_(stop), store_(store) {}
+             const ResolvedSettings& settings, const Store& store)
+      : package_(package), pixels_(pixels), cells_(cells), placing_(placing), settings_(settings), store_(store) {}
 
   [[nodiscard]] std::size_t size() const override { return cells_.size(); }
   [[nodiscard]] Cell place(std::size_t n) const override { return cells_[n]; }
   [[nodiscard]] double receivers_about(std::size_t n) const override { return pixels_of(pixels_.range_of(cells_[n])); }
   [[nodiscard]] CellReceivers receivers(std::size_t n) override {
     const float height_m = package_height_m(placing_, package_.manifest());
-    CellReceivers cell = pixels_.in_cell(package_, cells_[n], placing_.above, height_m, stop_);
-    if (placing_.above == HeightAbove::ground) cell.is_near_building = are_near_buildings(package_, cell, stop_);
+    const std::stop_token& stop = settings_.run.stop;
+    CellReceivers cell = pixels_.in_cell(package_, cells_[n], placing_.above, height_m, stop);
+    if (settings_.within_m) leave_out_far(*settings_.within_m, cell);
+    if (placing_.above == HeightAbove::ground) cell.is_near_building = are_near_buildings(package_, cell, near_buildings_m, stop);
     return cell;
   }
   void store(std::size_t, const CellReceivers& cell, const SvfValues& values) override { store_(cell, values); }
 
  private:
+  void leave_out_far(double within_m, CellReceivers& cell) const {
+    const std::vector<bool> is_near = are_near_buildings(package_, cell, within_m, settings_.run.stop);
+    std::vector<Receiver> near;
+    for (std::size_t n = 0; n < is_near.size(); ++n)
+      if (is_near[n]) near.push_back(cell.receivers[n]);
+    cell.outside_of_region += cell.receivers.size() - near.size();
+    cell.receivers = std::move(near);
+  }
+
   const PackageReader& package_;
   const RasterReceivers& pixels_;
   const std::vector<Cell>& cells_;
   const Placing& placing_;
-  const std::stop_token& stop_;
+  const ResolvedSettings& settings_;
   const Store& store_;
 };
 
@@ -150,7 +161,7 @@ class RasterRun {
       put_values(cell, values, plan_.columns, open_tiles);
       pixels_in_grid += cell.receivers.size() + cell.left_out;
     };
-    PixelCells pixel_cells(reader(), receivers_, cells_, placing_, settings_.run.stop, store);
+    PixelCells pixel_cells(reader(), receivers_, cells_, placing_, settings_, store);
     EvaluationSummary summary = evaluate_cells(package_, settings_, pixel_cells);
     if (summary.estimate) return with_memory(std::move(summary), memory_bytes_);
     if (settings_.run.shard) return summary;
@@ -360,7 +371,7 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const double memory_bytes = require_memory(manifest, resolved_settings, needs);
   WindowAnswers answers(plan, window, settings.bounds, settings.further);
   const auto store = [&](const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); };
-  PixelCells pixel_cells(in_use.reader(), receivers, cells, where, resolved_settings.run.stop, store);
+  PixelCells pixel_cells(in_use.reader(), receivers, cells, where, resolved_settings, store);
   EvaluationSummary summary = evaluate_cells(in_use, resolved_settings, pixel_cells);
   if (summary.estimate) summary = with_memory(std::move(summary), memory_bytes);
   return answers.take(std::move(summary));

@@ -75,6 +75,7 @@ void check(const Quantities& q, SkyWeight weight) {
 }
 
 void check(const EvaluationSettings& s) {
+  if (s.within_m) require_between("within_m", *s.within_m, 0.0, largest_within_m);
   require_one_of("engine", s.engine, Engine::near_only);
   require_one_of("weight", s.weight, SkyWeight::solid_angle);
   require_one_of("directions", s.directions, DirectionSet::fibonacci);
@@ -148,6 +149,7 @@ ResolvedSettings resolved(const EvaluationSettings& evaluation, const RunSetting
   s.verify = evaluation.verify;
   s.dry_run = evaluation.dry_run;
   s.region = evaluation.region;
+  s.within_m = evaluation.within_m;
   s.threads = thread_count(run);
   s.run = run;
   return s;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "evaluate/sky_evaluator.hpp"
 #include "farlod/evaluation.hpp"
@@ -21,6 +22,7 @@ struct ResolvedSettings {
   bool dry_run = false;
   std::size_t threads = 1;
   std::shared_ptr<const Region> region;  ///< null: everywhere
+  std::optional<double> within_m;        ///< of pixels: EvaluationSettings::within_m
   RunSettings run;
 
   [[nodiscard]] bool wants(Point2d p_projected) const { return region == nullptr || region->contains(p_projected); }

@@ -124,6 +124,23 @@ TEST_F(PackedTown, SummariesTellTheMeanWithinTwentyMetresOfBuildings) {
   EXPECT_EQ(told_by("--on-surface"), std::pair(std::size_t{0}, std::string("null")));
 }
 
+TEST_F(PackedTown, WithinTwentyMetresOfBuildingsIsWhatTheirMeanIsAbout) {
+  folder.must("farlod-svf a.farlod -o all.asc --grid 4 --summary all.json");
+  folder.must("farlod-svf a.farlod -o near.asc --grid 4 --within 20 --summary near.json");
+  const nlohmann::json all = folder.json_of("all.json"), near = folder.json_of("near.json");
+  EXPECT_EQ(near.at("receivers"), all.at("receivers_near_buildings"));
+  EXPECT_EQ(near.at("svf").at("mean"), all.at("svf").at("mean_near_buildings"));
+  const RasterFile of_all = raster("all.asc"), of_near = raster("near.asc");
+  for (std::size_t n = 0; n < of_near.values.size(); ++n)
+    if (of_near.values[n]) {
+      ASSERT_EQ(of_near.values[n], of_all.values[n]);
+    }
+  folder.must("farlod-svf a.farlod -o near.asc --grid 4 --within 3 --summary nearest.json");
+  EXPECT_LT(folder.json_of("nearest.json").at("receivers"), near.at("receivers"));
+  EXPECT_GT(folder.json_of("nearest.json").at("receivers"), 50);
+  expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --within 3 --surfaces all"), exit_usage, {"--within", "--grid"});
+}
+
 /// Buildings beyond the box are near, too.
 TEST_F(PackedTown, ABoxOfAMapKnowsTheBuildingsAroundIt) {
   const Point2d crossing = p_projected({0.0, 0.0}), low = crossing - Point2d{8.0, 8.0}, high = crossing + Point2d{8.0, 8.0};

@@ -73,6 +73,14 @@ def test_sun_over_a_street(canyon: farlod.City) -> None:
     assert hours[0] == pytest.approx(2.0)
 
 
+def test_sun_of_a_day(canyon: farlod.City) -> None:
+    day = canyon.light(period="2026-06-21")
+    azimuth, elevation, hours = day.sun
+    of_light = canyon.sunlit([STREET], light=day, height=HEIGHT)
+    assert of_light[0] == canyon.sunlit([STREET], azimuth, elevation, hours, height=HEIGHT)[0]
+    assert 0.0 < of_light[0] < hours[elevation > 0.0].sum()
+
+
 def test_light_in_a_street(canyon: farlod.City) -> None:
     light = farlod.Light([0.0, 0.0], [50.0, -5.0], 0.0, [1000.0, 0.0], sky_model="isotropic", month=[6, 12])
     found = canyon.irradiation([STREET], light, height=HEIGHT, quantities=["shade"])

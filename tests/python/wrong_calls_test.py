@@ -94,6 +94,9 @@ CALLS = {
         ((HERE, [0.0], [1.0, 2.0], [1.0]), {}, "the sun's"),
         ((HERE, ["east"], [1.0], [1.0]), {}, "sun"),
         ((HERE, [NAN], [1.0], [1.0]), {}, "sun"),
+        ((HERE, [0.0], [1.0]), {}, "give one of the two"),
+        ((HERE, [0.0], [1.0], [1.0]), dict(light=SUN), "give one of the two"),
+        ((HERE,), dict(light=1.0), "farlod.Light"),
     ],
     "irradiation": [
         ((HERE, 800.0), {}, "farlod.Light"),

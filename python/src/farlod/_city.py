@@ -61,6 +61,7 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
         bbox: Any = None,
         mask: Any = None,
         *,
+        within: float | None = None,
         like: Any = None,
         chunks: Any = None,
         height: float = 1.5,
@@ -84,6 +85,9 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
             In the CRS of the city (default: ``city_bounds``; all cells are in ``bounds``). One beside the city is refused.
         mask : geopandas.GeoSeries or GeoDataFrame of polygons, or a polygon of shapely in the CRS of the city, optional
             Pixels whose centres lie outside of it have no data, and cost next to nothing.
+        within : float, optional
+            Pixels that are farther from every building than so many metres, in the plan, have no data either; those of
+            pavements are within 3.
         like : xarray.DataArray or Dataset on (y, x), optional
             Takes the pixels of this raster, which is north-up, has square pixels, and the CRS of the city.
         chunks : int, tuple or "auto", optional
@@ -128,6 +132,7 @@ class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
             quantities,
             light=light,
             region=region if chunks is None else None,
+            within=within,
             verify=verify,
             options=lazy,
         )

@@ -64,6 +64,8 @@ class Light:
         Of all intervals.
     global_horizontal : float
         What falls on a level plane in the open, in kWh/m².
+    sun : three numpy.ndarray of float64, (k,)
+        Azimuths and elevations of the sun in degrees, and the hours that each position stands for.
 
     Examples
     --------
@@ -135,6 +137,12 @@ class Light:
             raise InvalidArgument(f"albedo is {_arguments.shown(albedo)}: give two numbers, those of the ground and of façades")
         self.hours = float(intervals["hours"].sum())
         self.global_horizontal = _runtime.global_horizontal_kwh_m2(*self._columns, *self._suns)
+
+    @property
+    def sun(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Where the sun is, as :meth:`City.sunlit` takes it."""
+        _, azimuth, elevation, hours = self._suns
+        return azimuth, elevation, hours
 
     def _add_to(self, further: Any) -> None:
         """Asks ``Quantities`` for the irradiation of this light. Raises InvalidArgument."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from farlod import _arguments, _grids
 from farlod._answers import Floats, PointAnswers, SvfInterval, Values
+from farlod._light import Light
 from farlod._open_city import OpenCity
 from farlod._receivers import Receivers
 from farlod._settings import Above, Evaluation, Metric, Options, Quantity, SkyPatches
@@ -268,10 +269,11 @@ class PointsOfCity(OpenCity):
     def sunlit(
         self,
         points: Any,
-        azimuth: Any,
-        elevation: Any,
-        hours: Any,
+        azimuth: Any = None,
+        elevation: Any = None,
+        hours: Any = None,
         *,
+        light: Light | None = None,
         trees: bool = False,
         normals: Any = None,
         height: float = 1.5,
@@ -288,6 +290,8 @@ class PointsOfCity(OpenCity):
             Where the sun is, in degrees; azimuths clockwise from true north, as pvlib has them.
         hours : array_like of float, (m,)
             The time that each position stands for.
+        light : Light, optional
+            Its positions of the sun, in place of the three arrays: ``city.light(period="2026-06-21")`` has those of a day.
         trees : bool
             Whether crowns of trees take of each hour what they take of light (``canopy_rule``, ``transmissivity`` …).
         height, above, max_error, **options : as for :meth:`svf`
@@ -300,17 +304,33 @@ class PointsOfCity(OpenCity):
         --------
         >>> city.sunlit([[x, y, 300.0]], azimuth=[180.0, 270.0], elevation=[40.0, -5.0], hours=[1.0, 1.0])
         array([1.], dtype=float32)
+        >>> open_place = city.sunlit([[x, y, 300.0]], light=city.light(period="2026-06-21"))
+        >>> bool(15.0 < open_place[0] < 17.0)
+        True
         """
         receivers = self._receivers(points, normals)
-        sun = (azimuth, elevation, hours)
+        sun = _positions_of(azimuth, elevation, hours, light)
         evaluation = Evaluation(height=height, above=above, max_error=max_error, sun=sun, sunlit_total=trees, options=options)
         table = self._answers(receivers, evaluation)["further"]
-        return _labelled(np.ascontiguousarray(table[:, -1]), receivers)
+        return _labelled(np.ascontiguousarray(table[:, -1]), receivers, "sunlit_h")
 
 
-def _labelled(values: Floats, receivers: Receivers) -> Values:
+def _positions_of(azimuth: Any, elevation: Any, hours: Any, light: Light | None) -> tuple[Any, Any, Any]:
+    """Of the sun. Raises InvalidArgument unless there are either three arrays or a light."""
+    arrays = {"azimuth": azimuth, "elevation": elevation, "hours": hours}
+    missing = [name for name, values in arrays.items() if values is None]
+    if light is None and not missing:
+        return azimuth, elevation, hours
+    if light is None or len(missing) < len(arrays):
+        raise InvalidArgument("the sun's positions are arrays of azimuth, elevation and hours, or those of a light: give one of the two")
+    if not isinstance(light, Light):
+        raise InvalidArgument(f"light is a {type(light).__name__}: give a farlod.Light, as City.light() makes it")
+    return light.sun
+
+
+def _labelled(values: Floats, receivers: Receivers, name: str = "svf") -> Values:
     if receivers.index is None:
         return values
     import pandas
 
-    return pandas.Series(values, index=receivers.index, name="svf")
+    return pandas.Series(values, index=receivers.index, name=name)

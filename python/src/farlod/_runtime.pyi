@@ -75,6 +75,7 @@ class EvaluationSettings:
     bounds: bool
     verify: int
     dry_run: bool
+    within_m: float | None
     further: Quantities
     def __init__(self) -> None: ...
     def set_engine(self, engine: str) -> None: ...

@@ -132,6 +132,7 @@ class Evaluation:
     sunlit_total: bool = False
     light: Any = None  #: a farlod.Light
     region: Any = None
+    within: float | None = None
     verify: int = 0
     options: Options = field(default_factory=lambda: Options())
 
@@ -188,6 +189,8 @@ class Evaluation:
         settings.further = self.further()
         settings.verify = _arguments.whole_number("verify", self.verify, 0, 10**10)
         settings.set_region(self.region)
+        if self.within is not None:
+            settings.within_m = _arguments.number("within", self.within)
         for name, value in self.options.items():
             if name in ("azimuths", "rays"):
                 setattr(settings, name, _arguments.whole_number(name, value, 1, 10**10))

@@ -30,7 +30,7 @@ struct Change {
                           memory_limit, resume, merge, shard, run] = o;
   [[maybe_unused]] auto& [choice, spacing_m, irradiation_threshold] = surfaces;
   [[maybe_unused]] auto& [above, height_m] = placing;
-  [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
+  [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, within_m, further] =
       evaluation;
   [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, sunlit_total, light, irradiation,
                           irradiance, illuminance, shade, sky_component, view_factors, view_factors_below, svf_total,
@@ -87,6 +87,7 @@ TEST_F(ResultKey, HasEachReceiver) {
                 o.bbox_projected = Box2d{{0, 0}, {1, 1}};
               }},
              {"--mask", [&](SvfOptions& o) { o.mask_file = folder.file("a.geojson"); }},
+             {"--within", [](SvfOptions& o) { o.evaluation.within_m = 3.0; }},
              {"--mask of other contents", [&](SvfOptions& o) { o.mask_file = folder.file("b.geojson"); }},
              {"--surfaces", [](SvfOptions& o) { o.source = ReceiverSource::surfaces; }},
              {"--along", [&](SvfOptions& o) { o.source = ReceiverSource::lines, o.points_file = folder.file("a.geojson"); }},

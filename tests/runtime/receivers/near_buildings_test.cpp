@@ -50,7 +50,7 @@ struct PackedVillage {
 };
 
 /// Returns how many receivers are near.
-std::size_t expect_the_distance_to_say_so(const PackageReader& package) {
+std::size_t expect_the_distance_to_say_so(const PackageReader& package, double near_m) {
   const RasterPlan plan = plan_raster(package.manifest(), 3.1, Box2d{{-120.0, -120.0}, {360.0, 380.0}});
   const RasterReceivers receivers(package.manifest(), plan, nullptr, BeyondGrid::is_answered);
   // Places are rounded to floats within their cells
@@ -58,15 +58,15 @@ std::size_t expect_the_distance_to_say_so(const PackageReader& package) {
   std::size_t near_ones = 0, all = 0;
   for (const Cell cell : receivers.cells()) {
     const CellReceivers of_cell = receivers.in_cell(package, cell, HeightAbove::ground, 1.5F);
-    const std::vector<bool> is_near = are_near_buildings(package, of_cell);
+    const std::vector<bool> is_near = are_near_buildings(package, of_cell, near_m);
     EXPECT_EQ(is_near.size(), of_cell.receivers.size());
     for (std::size_t n = 0; n < is_near.size(); ++n) {
       const std::size_t pixel = of_cell.receivers[n].index;
       const Point2d p = plan.centre_m(pixel % plan.columns, pixel / plan.columns);
       double least_m = distance_m(slab, p);
       for (const Box2d& house : houses) least_m = std::min(least_m, distance_m(house, p));
-      if (std::abs(least_m - near_buildings_m) > rounding_m) {
-        EXPECT_EQ(is_near[n], least_m < near_buildings_m) << least_m;
+      if (std::abs(least_m - near_m) > rounding_m) {
+        EXPECT_EQ(is_near[n], least_m < near_m) << least_m;
       }
       near_ones += is_near[n] ? 1U : 0U;
       ++all;
@@ -85,9 +85,13 @@ TEST(NearBuildings, AreReceiversWithinTwentyMetresInThePlanWhicheverCellsTheBuil
         if (assign == Assign::whole && cell_edge_m < 50.0) continue;
         SCOPED_TRACE(std::to_string(bearing_deg) + " degrees, cells of " + std::to_string(cell_edge_m) + " m");
         const PackedVillage village(bearing_deg, cell_edge_m, assign);
-        const std::size_t found = expect_the_distance_to_say_so(village.reader());
+        const std::size_t found = expect_the_distance_to_say_so(village.reader(), near_buildings_m);
         if (expected == 0) expected = found;
         EXPECT_EQ(found, expected);
+        EXPECT_LT(expect_the_distance_to_say_so(village.reader(), 2.0), found);
+        if (assign == Assign::clip) {
+          EXPECT_GT(expect_the_distance_to_say_so(village.reader(), 45.0), found);
+        }
       }
   EXPECT_GT(expected, 1000U);
 }
@@ -99,17 +103,17 @@ TEST(NearBuildings, ArePartsOfTheReceiversAsTheyAreAmongAll) {
   const RasterReceivers receivers(package.manifest(), plan);
   for (const Cell cell : receivers.cells()) {
     const CellReceivers all = receivers.in_cell(package, cell, HeightAbove::ground, 1.5F);
-    const std::vector<bool> of_all = are_near_buildings(package, all);
+    const std::vector<bool> of_all = are_near_buildings(package, all, near_buildings_m);
     CellReceivers some{cell, {}};
     for (std::size_t n = 0; n < all.receivers.size(); n += 7) some.receivers.push_back(all.receivers[n]);
-    const std::vector<bool> of_some = are_near_buildings(package, some);
+    const std::vector<bool> of_some = are_near_buildings(package, some, near_buildings_m);
     for (std::size_t n = 0; n < of_some.size(); ++n) EXPECT_EQ(of_some[n], of_all[7 * n]);
   }
 }
 
 TEST(NearBuildings, AreNotAskedForOfNoReceivers) {
   const PackedVillage village(0.0, 70.0, Assign::clip);
-  EXPECT_TRUE(are_near_buildings(village.reader(), {{0, 0}, {}}).empty());
+  EXPECT_TRUE(are_near_buildings(village.reader(), {{0, 0}, {}}, near_buildings_m).empty());
 }
 
 }  // namespace
