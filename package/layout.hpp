@@ -93,7 +93,7 @@ static_assert(std::endian::native == std::endian::little,
 inline constexpr std::uint32_t format_version = 10;
 /// The version of a package that knows the ground beyond its grid (far_terrain.hpp): who does not read that would miss mountains.
 inline constexpr std::uint32_t far_terrain_format_version = 11;
-/// The version of natural relief whose tiles are partly in heights.bin (pixel_heights.hpp): who does not read that would miss
+/// The version of a rough surface whose tiles are partly in heights.bin (pixel_heights.hpp): who does not read that would miss
 /// most of it. It may know the ground beyond its grid.
 inline constexpr std::uint32_t relief_format_version = 12;
 /// The version of a city with trees, before version 10.

@@ -302,9 +302,10 @@ struct ManifestSeal {
   return m.far_terrain ? far_terrain_format_version : format_version;
 }
 
-/// Whether a package is of a surface without walls, pixel for pixel, and of nothing else: rays march over its pixels sooner than
-/// edges are drawn (docs/decisions/0032-a-march-over-pixels.md), and its cells need no far maps.
-[[nodiscard]] bool is_natural_relief(const Manifest& manifest);
+/// Whether a package is of a surface, pixel for pixel, and of nothing else, and most pixels differ from their neighbors: natural
+/// relief, and what lasers have surveyed. Rays march over its pixels sooner than edges are drawn
+/// (docs/decisions/0032-a-march-over-pixels.md), and its cells need no far maps.
+[[nodiscard]] bool has_rough_surface(const Manifest& manifest);
 
 /// What users are told of a package.
 [[nodiscard]] inline PackageDescription described(const Manifest& m) {
@@ -328,7 +329,7 @@ struct ManifestSeal {
   d.polygons = m.polygons;
   d.triangles = m.triangles;
   d.manifest_xxh3 = m.file_xxh3;
-  d.is_natural_relief = is_natural_relief(m);
+  d.has_rough_surface = has_rough_surface(m);
   return d;
 }
 

@@ -76,7 +76,7 @@ struct PackageReader::Impl {
   OpenOnDemand<FarTerrainFile> open_far_terrain;
   OpenOnDemand<PixelHeightsFile> open_heights;
   std::once_flag relief_once;
-  std::optional<ReliefTiles> relief;  ///< once a tile of natural relief is asked for, some of which is in no tiles file
+  std::optional<ReliefTiles> relief;  ///< once a tile of a rough surface is asked for, some of which is in no tiles file
   std::mutex held_mutex;
   LruCache held;
 

@@ -36,7 +36,7 @@ struct PackageInMemory {
 /// A package, usually on disk. Blocks are mapped and checked against their checksums when they are first asked for, and kept in
 /// memory as far as there is room. One that was not asked for the longest gives its memory to the next: what was handed out of it
 /// stays where it is and readable, since the mapping stays, and comes from the disk again when somebody reads it. What is made
-/// and not read, of natural relief, lasts as long as somebody has a view of it. All questions may be asked from many threads.
+/// and not read, of a rough surface, lasts as long as somebody has a view of it. All questions may be asked from many threads.
 class PackageReader {
  public:
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a

@@ -54,8 +54,8 @@ struct PixelHeights {
 
 namespace package {
 
-/// Whether pixels with so many walls between them and so many triangles are natural relief: is_natural_relief.
-[[nodiscard]] bool are_natural_relief(const SurfacePixels& pixels, std::uint64_t walls, std::uint64_t triangles);
+/// Whether a surface of so many triangles is rough: has_rough_surface.
+[[nodiscard]] bool is_rough(const SurfacePixels& pixels, std::uint64_t triangles);
 
 /// The bytes of `heights.bin`, which packages have whose manifest names it, and no others: a header, a float for each pixel and a
 /// byte for each pixel. docs/package_format.md tells the same in words; where they differ, this file wins.

@@ -15,21 +15,20 @@ namespace farlod {
 
 using package::HeightsHeader;
 
-bool package::are_natural_relief(const SurfacePixels& p, std::uint64_t walls, std::uint64_t triangles) {
-  // With fewer triangles for each pixel, edges are drawn sooner: blocks on level ground have 0.2, natural relief 2. With more
-  // walls, edges tell better where horizons jump, and are not slower: surveys of towns have 0.1
-  constexpr double least_triangles_per_pixel = 0.5, most_walls_per_pixel = 5.0;
+bool package::is_rough(const SurfacePixels& p, std::uint64_t triangles) {
+  // With fewer triangles for each pixel, edges are drawn sooner: blocks on level ground have 0.2, natural relief 2, surveys of
+  // towns by lasers 2 to 3, of woods 8
+  constexpr double least_triangles_per_pixel = 0.5;
   // More are too many to be counted by a march
   constexpr std::uint32_t most_along = std::uint32_t{1} << 28;
   if (std::max(p.columns, p.rows) > most_along) return false;
   const double pixels = static_cast<double>(p.columns) * p.rows;
-  return static_cast<double>(triangles) >= least_triangles_per_pixel * pixels &&
-         static_cast<double>(walls) <= most_walls_per_pixel * pixels;
+  return static_cast<double>(triangles) >= least_triangles_per_pixel * pixels;
 }
 
-bool package::is_natural_relief(const Manifest& m) {
+bool package::has_rough_surface(const Manifest& m) {
   if (!m.heights() || !m.pixels->walls || m.far_terrain) return false;
-  return are_natural_relief(*m.pixels, *m.pixels->walls, m.triangles);
+  return is_rough(*m.pixels, m.triangles);
 }
 
 std::optional<Cell> PixelsInGrid::cell_around(std::size_t column, std::size_t row, const Grid& grid) const {

@@ -16,7 +16,7 @@
 
 namespace farlod {
 
-/// A tile of natural relief as a whole: what its file holds, and behind it the squares between pixels that are in no file
+/// A tile of a rough surface as a whole: what its file holds, and behind it the squares between pixels that are in no file
 /// (PixelSquares). docs/package_format.md, "Squares of pixels", tells the same in words.
 struct ReliefTile {
   package::CellRecord cell{};
@@ -36,7 +36,8 @@ struct ReliefTile {
 [[nodiscard]] ReliefTile relief_tile(const TileView& stored, Cell cell, const PixelHeightsFile& heights,
                                      const package::SurfacePixels& pixels, const Grid& grid);
 
-/// The tiles of a package of natural relief, each made when it is asked for. Those asked for last are kept. Threads may share it.
+/// The tiles of a package of a rough surface, each made when it is asked for. Those asked for last are kept. Threads may share
+/// it.
 class ReliefTiles {
  public:
   /// All must outlive it.

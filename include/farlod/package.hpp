@@ -36,8 +36,9 @@ struct PackageDescription {
   /// XXH3-64 of the manifest, which has the checksums of all other files: the same for the same package. 0 of one that a shard
   /// makes.
   std::uint64_t manifest_xxh3 = 0;
-  /// It is a raster without walls, and nothing else: rays march over its pixels, so that cells without far maps lack none.
-  bool is_natural_relief = false;
+  /// It is a raster, and nothing else, most of whose pixels differ from their neighbors: rays march over its pixels, so that
+  /// cells without far maps lack none.
+  bool has_rough_surface = false;
 };
 
 struct PackageContents;

@@ -150,7 +150,7 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
              m.rows, m.cell_edge_m, m.neighborhood, m.neighborhood);
   if (options.settings.area)
     fmt::print("Far maps: {} of {} cells; {}\n", m.cells_with_far_map, m.columns * m.rows,
-               m.is_natural_relief ? "they serve bounds, and rays march over the pixels of all cells"
+               m.has_rough_surface ? "they serve bounds, and rays march over the pixels of all cells"
                                    : "receivers in cells without one are traced against the whole city");
   if (result.chosen) print_choice(*result.chosen, options);
   print_end(result, options, seconds);

@@ -26,12 +26,11 @@ bool slopes(const tiles::PixelSquare& square) {
 
 /// Squares between four pixels by what they are.
 struct SampledSquares {
-  std::uint64_t whole = 0, torn = 0, level = 0, walls = 0;
+  std::uint64_t whole = 0, torn = 0, level = 0;
   [[nodiscard]] double all() const { return static_cast<double>(whole + torn + level); }
 
   void add(const TerrainRaster& band) {
     const tiles::PixelSteps steps(band);
-    walls += steps.count();
     for (std::size_t row = 1; row < band.rows; ++row)
       for (std::size_t column = 1; column < band.columns; ++column) {
         const tiles::PixelSquare square(band, steps, column, row);
@@ -67,12 +66,10 @@ GroundLoad ground_load_of(const TerrainRaster& terrain, const Grid& grid, bool m
   const double whole = static_cast<double>(squares.whole) * of_sample;
   const package::SurfacePixels pixels{
       {}, terrain.step_m.x, static_cast<std::uint32_t>(terrain.columns), static_cast<std::uint32_t>(terrain.rows)};
-  load.is_natural_relief = may_be_left && package::are_natural_relief(
-                                              pixels, static_cast<std::uint64_t>(static_cast<double>(squares.walls) * of_sample),
-                                              static_cast<std::uint64_t>(2.0 * whole));
+  load.is_rough = may_be_left && package::is_rough(pixels, static_cast<std::uint64_t>(2.0 * whole));
   // Squares over a border of cells stay, and are cut
   const double at_borders = std::min(1.0, 2.0 * (terrain.step_m.x + terrain.step_m.y) / grid.cell_edge_m);
-  load.triangles = 2.0 * whole * (load.is_natural_relief ? at_borders : 1.0 + at_borders) +
+  load.triangles = 2.0 * whole * (load.is_rough ? at_borders : 1.0 + at_borders) +
                    of_sample * (triangles_of_torn_square * static_cast<double>(squares.torn) +
                                 triangles_of_level_square * static_cast<double>(squares.level));
   return load;

@@ -14,15 +14,15 @@ struct GroundLoad {
   std::size_t points = 0;  ///< nodes of a terrain, points of a relief, or pixels; 0 without ground
   /// A surface model (TerrainRaster::covers_pixels): pixels, no network.
   bool is_surface = false;
-  double triangles = 0.0;          ///< of a surface model: that are cut and stored, about
-  bool is_natural_relief = false;  ///< a surface model that needs no far maps, most of which is left to readers
+  double triangles = 0.0;  ///< of a surface model: that are cut and stored, about
+  bool is_rough = false;   ///< a surface model that needs no far maps, most of which is left to readers
 
   /// The points of a relief, or none.
   [[nodiscard]] static GroundLoad of_points(std::size_t points) { return {points}; }
 };
 
 /// The load of a terrain, or of the surface model that it is, judged by a sample of its rows. `may_be_left` to readers, as far as
-/// it is natural relief: squares_of_readers.
+/// it is rough: squares_of_readers.
 [[nodiscard]] GroundLoad ground_load_of(const TerrainRaster& terrain, const Grid& grid, bool may_be_left);
 
 }  // namespace farlod::pipeline

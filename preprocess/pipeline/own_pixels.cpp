@@ -33,14 +33,11 @@ std::optional<tiles::SquaresOfReaders> squares_of_readers(const StageSettings& s
 
 namespace {
 
-/// Nothing where the ground is not natural relief for certain.
+/// Nothing where the ground is not rough for certain.
 std::optional<std::uint64_t> leave_out_squares(tiles::Ground& ground, const package::SurfacePixels& pixels, const Grid& grid,
                                                tiles::SquaresOfReaders squares) {
-  const std::uint64_t walls = ground.pixel_steps().count();
-  const auto are_relief = [&](std::uint64_t count) { return package::are_natural_relief(pixels, walls, 2 * count); };
-  // Walls alone may tell, before squares are counted
-  constexpr auto most_squares = std::uint64_t{1} << 62U;
-  const std::uint64_t count = are_relief(most_squares) ? ground.leave_out_squares(grid, squares, are_relief) : 0;
+  const auto are_enough = [&](std::uint64_t count) { return package::is_rough(pixels, 2 * count); };
+  const std::uint64_t count = ground.leave_out_squares(grid, squares, are_enough);
   return count > 0 ? std::optional(count) : std::nullopt;
 }
 

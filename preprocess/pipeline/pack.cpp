@@ -188,7 +188,7 @@ class Packing {
     const CanopyLoad canopy = canopy_load_of(trees);
     record_.memory = memory_of_pack(model, load, ground.grid, kind, canopy);
     if (!settings_.far_terrains.empty()) record_.memory.always_mib += far_terrain::most_mib;
-    const std::uint64_t far_maps = load.is_natural_relief && !settings_.area ? 0 : record_.plan.far_maps;
+    const std::uint64_t far_maps = load.is_rough && !settings_.area ? 0 : record_.plan.far_maps;
     record_.result.estimate = estimate_pack(record_.memory, model, load, ground.grid, kind, canopy, threads, far_maps);
     expect_memory();
   }

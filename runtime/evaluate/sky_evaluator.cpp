@@ -30,7 +30,7 @@ FarMapOfCell far_map_outside_of_grid(const PackageReader& package) {
 FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
   if (!package.grid().cells.contains(cell)) return far_map_outside_of_grid(package);
   if (!package.has_far_map(cell))
-    return package::is_natural_relief(package.manifest()) ? FarMapOfCell::needless : FarMapOfCell::missing;
+    return package::has_rough_surface(package.manifest()) ? FarMapOfCell::needless : FarMapOfCell::missing;
   return package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon;
 }
 
@@ -109,7 +109,7 @@ void Evaluation::make_canopy_city() const {
 }
 
 const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
-  if (wants_bounds(answers) || further.needs_near_sky() || !package::is_natural_relief(package.manifest())) return nullptr;
+  if (wants_bounds(answers) || further.needs_near_sky() || !package::has_rough_surface(package.manifest())) return nullptr;
   std::call_once(pixels_->once, [this] {
     const PixelHeightsFile* const file = package.pixel_heights();
     // A package in memory has none
@@ -121,7 +121,7 @@ const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
 }
 
 bool Evaluation::is_unbroken_relief() const {
-  const PixelHeightsFile* const file = package::is_natural_relief(package.manifest()) ? package.pixel_heights() : nullptr;
+  const PixelHeightsFile* const file = package::has_rough_surface(package.manifest()) ? package.pixel_heights() : nullptr;
   return file != nullptr && std::ranges::none_of(file->height_m(), [](float height_m) { return std::isnan(height_m); });
 }
 

@@ -25,7 +25,7 @@ enum class FarMapOfCell {
   horizon,
   box,
   missing,          ///< the cell is one of the grid, and far maps were made for others
-  needless,         ///< the city is natural relief, over whose pixels rays march
+  needless,         ///< the city is a rough surface, over whose pixels rays march
   outside_of_grid,  ///< there are no cells, and no far maps
   all_is_near       ///< likewise, but the edges of the city are so few that all are drawn, without a far map
 };
@@ -47,7 +47,7 @@ enum class EvaluationMethod {
 inline constexpr std::size_t evaluation_method_count = 6;
 
 /// The only place that decides which method answers a cell: the table of docs/stages/evaluate.md. Rays march over the pixels of
-/// natural relief before horizons are drawn, too.
+/// a rough surface before horizons are drawn, too.
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 class SkyMethod;

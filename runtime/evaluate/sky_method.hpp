@@ -53,7 +53,7 @@ struct Evaluation {
   /// The pixels that the city is, where horizons may be found by marching over them: all that is asked for has no bounds, and
   /// nothing lies beyond the raster. Null elsewhere. Thread-safe.
   [[nodiscard]] const PixelCity* pixels(const SkyAnswers& answers) const;
-  /// Whether the city is natural relief, and all of its pixels have a height. Thread-safe.
+  /// Whether the city is a rough surface, and all of its pixels have a height. Thread-safe.
   [[nodiscard]] bool is_unbroken_relief() const;
   /// The pixels that all crowns are, where the sky behind them may be found by marching over them from some of these receivers of
   /// a cell: all that is asked for has no bounds, and crowns count by the rule `once`. Null elsewhere. Thread-safe.
@@ -95,7 +95,7 @@ class SkyMethod {
 // The evaluation must outlive the methods. Which one answers a cell says method_of (evaluate/sky_evaluator.hpp)
 /// Horizons, and facets in the gaps below overhangs.
 [[nodiscard]] std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation);
-/// Horizons of receivers above the pixels of natural relief, where these tell all that is asked for; `others` answers the rest.
+/// Horizons of receivers above the pixels of a rough surface, where these tell all that is asked for; `others` answers the rest.
 [[nodiscard]] std::unique_ptr<const SkyMethod> pixel_method(const Evaluation& evaluation,
                                                             std::unique_ptr<const SkyMethod> others);
 /// Rays against horizons.

@@ -147,7 +147,7 @@ def version_of(name: str) -> int:
 
 
 def newest_version() -> int:
-    """That of natural relief."""
+    """That of a rough surface."""
     return version_of("relief_format_version")
 
 

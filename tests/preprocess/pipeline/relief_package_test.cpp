@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What pixels of 1 m show: hills with noise; the same with a block of 6 m on every fourth pixel; level ground.
-enum class Shown { hills, blocks, level };
+/// What pixels of 1 m show: hills with noise; the same with blocks of 6 m on it, as lasers survey a town; the same blocks on
+/// level ground, as footprints burn them; level ground.
+enum class Shown { hills, survey, blocks, level };
 
 /// An ESRI ASCII grid of 60 × 50 pixels.
 std::string grid_of(Shown shown) {
@@ -30,8 +31,10 @@ std::string grid_of(Shown shown) {
   for (int row = 0; row < 50; ++row)
     for (int column = 0; column < 60; ++column) {
       double height_m = 20.0;
-      if (shown != Shown::level) height_m += 3.0 * std::sin(0.2 * column) * std::cos(0.17 * row) + noise(random);
-      if (shown == Shown::blocks && column % 2 == 0 && row % 2 == 0) height_m += 6.0;
+      if (shown == Shown::hills || shown == Shown::survey)
+        height_m += 3.0 * std::sin(0.2 * column) * std::cos(0.17 * row) + noise(random);
+      const bool has_blocks = shown == Shown::survey || shown == Shown::blocks;
+      if (has_blocks && column % 10 < 3 && row % 10 < 4) height_m += 6.0;
       text << height_m << (column < 59 ? ' ' : '\n');
     }
   return text.str();
@@ -78,28 +81,30 @@ std::size_t far_edges_that_no_file_of_tiles_has(const PackageReader& reader) {
 }
 
 TEST(ReliefPackage, LeavesMostSquaresToReaders) {
-  ReliefPacking p;
-  p.run();
-  const package::Manifest m = p.manifest();
-  ASSERT_TRUE(m.pixels && m.pixels->squares);
-  EXPECT_EQ(m.version, package::relief_format_version);
-  EXPECT_GT(*m.pixels->squares, 59U * 49U / 2U);
-  EXPECT_EQ(m.pixels->walls, 0U);
-  EXPECT_TRUE(package::is_natural_relief(m));
-  EXPECT_TRUE(p.result.package.is_natural_relief) << "and the run tells it";
-  EXPECT_EQ(m.cells_with_far_map(), 0U);
-  EXPECT_GT(m.triangles, 2U * 59U * 49U);
-  EXPECT_EQ(p.result.estimate.far_maps, 0U) << "it is known beforehand";
+  for (const Shown shown : {Shown::hills, Shown::survey}) {
+    ReliefPacking p(shown);
+    p.run();
+    const package::Manifest m = p.manifest();
+    ASSERT_TRUE(m.pixels && m.pixels->squares);
+    EXPECT_EQ(m.version, package::relief_format_version);
+    EXPECT_GT(*m.pixels->squares, 59U * 49U / 2U);
+    EXPECT_EQ(m.pixels->walls.value_or(0) > 0, shown == Shown::survey);
+    EXPECT_TRUE(package::has_rough_surface(m));
+    EXPECT_TRUE(p.result.package.has_rough_surface) << "and the run tells it";
+    EXPECT_EQ(m.cells_with_far_map(), 0U);
+    EXPECT_GT(m.triangles, 2U * 59U * 49U);
+    EXPECT_EQ(p.result.estimate.far_maps, 0U) << "it is known beforehand";
+  }
 }
 
-TEST(ReliefPackage, LeavesNoneOfATownOrOfLevelGround) {
+TEST(ReliefPackage, LeavesNoneOfBlocksOnLevelGround) {
   for (const Shown shown : {Shown::blocks, Shown::level}) {
     ReliefPacking p(shown);
     p.run();
     const package::Manifest m = p.manifest();
     EXPECT_FALSE(m.pixels->squares.has_value());
     EXPECT_EQ(m.version, package::format_version);
-    EXPECT_FALSE(package::is_natural_relief(m));
+    EXPECT_FALSE(package::has_rough_surface(m));
     EXPECT_EQ(p.result.estimate.far_maps, m.cells_with_far_map());
     EXPECT_EQ(m.pixels->walls.value_or(0) > 0, shown == Shown::blocks);
     const PackageReader reader(p.settings.output);
