@@ -57,6 +57,8 @@ TileRange tiles_over(const PixelRange& pixels) {
           {tiles_along(pixels.row_end), tiles_along(pixels.column_end)}};
 }
 
+double pixels_of(const RasterPlan& plan) { return static_cast<double>(plan.columns) * static_cast<double>(plan.rows); }
+
 double pixels_of(const PixelRange& pixels) {
   return static_cast<double>(pixels.column_end - pixels.column_begin) * static_cast<double>(pixels.row_end - pixels.row_begin);
 }
@@ -159,6 +161,8 @@ class RasterRun {
     return summary;
   }
 
+  [[nodiscard]] double memory_bytes() const { return memory_bytes_; }
+
  private:
   [[nodiscard]] static const RasterPlan& checked(const RasterPlan& plan) {
     require_usable(plan);
@@ -176,6 +180,34 @@ class RasterRun {
   std::size_t further_bands_;
   double memory_bytes_ = 0.0;
 };
+
+/// How many times coarser the pixels are that a dry run looks at: cells of more pixels would take long.
+std::size_t coarsening_of(const Package& package, const RasterPlan& plan) {
+  constexpr double most_along_cell = 300.0, wanted_along_cell = 200.0;
+  const double along_cell = package.description().cell_edge_m / plan.step_m;
+  return along_cell > most_along_cell ? static_cast<std::size_t>(std::ceil(along_cell / wanted_along_cell)) : 1;
+}
+
+/// A plan of the same place, whose pixels are so many times as long and wide.
+RasterPlan coarser(const RasterPlan& plan, std::size_t times) {
+  return {plan.north_west_m, plan.step_m * static_cast<double>(times), (plan.columns + times - 1) / times,
+          (plan.rows + times - 1) / times};
+}
+
+/// The estimate of a dry run. Of fine pixels, coarser ones tell what each takes; memory is that of the raster itself.
+EvaluationSummary estimate_of_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
+                                     const EvaluationSettings& settings, const RunSettings& run) {
+  const RasterRun of_all(package, plan, placing, settings, run);
+  const auto nobody = [](const RasterTile&) {};
+  const std::size_t times = coarsening_of(package, plan);
+  if (times == 1) return of_all.evaluate(nobody);
+  const RasterPlan sampled = coarser(plan, times);
+  EvaluationSummary summary = RasterRun(package, sampled, placing, settings, run).evaluate(nobody);
+  const double ratio = pixels_of(plan) / pixels_of(sampled);
+  summary.estimate->receivers *= ratio;
+  summary.estimate->seconds *= ratio;
+  return with_memory(std::move(summary), of_all.memory_bytes());
+}
 
 void require_within(const RasterWindow& window, const RasterPlan& plan) {
   if (window.columns == 0 || window.rows == 0)
@@ -332,6 +364,7 @@ std::optional<RasterPlan> plan_of_surface_model(const Package& package, const st
 EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
                                   const EvaluationSettings& settings, const OnRasterTile& on_tile, const RunSettings& run) {
   if (!on_tile) throw InvalidArgument("nobody takes the tiles: give evaluate_raster a function that does");
+  if (settings.dry_run) return estimate_of_raster(package, plan, placing, settings, run);
   return RasterRun(package, plan, placing, settings, run).evaluate(on_tile);
 }
 

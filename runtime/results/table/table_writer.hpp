@@ -21,11 +21,11 @@
 
 namespace farlod {
 
-/// A receiver that the user named, with its answer; no answer when it lies inside a building.
+/// A receiver that the user named, with its answer; no answer when it lies inside a building, or far from the city.
 struct PointRow {
   std::string id;
-  Point2d p_projected;             ///< easting and northing
-  std::optional<double> height_m;  ///< where it stands; unknown inside a building
+  std::optional<Point2d> p_projected;  ///< easting and northing; none of a row that cannot be read
+  std::optional<double> height_m;      ///< where it stands; unknown inside a building
   std::optional<double> svf;
   std::optional<double> low, high;  ///< certain bounds, where asked for
   /// Where it looks, clockwise from true north and from straight up; none: straight up.
