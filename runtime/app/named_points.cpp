@@ -248,7 +248,7 @@ PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {
   const auto row = [&](std::size_t n) {
     const std::size_t columns = answers.further.size() / named.ids.size();
     return PointRow{named.ids[n],
-                    named.has_place(n) ? std::optional(Point2d{named.x_m[n], named.y_m[n]}) : std::nullopt,
+                    {named.x_m[n], named.y_m[n]},
                     known(answers.height_m[n]),
                     known(answers.svf, n),
                     known(answers.low, n),

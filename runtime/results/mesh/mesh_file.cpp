@@ -164,9 +164,9 @@ Point3d origin_of(const PointRows& rows) {
   Point3d low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (std::size_t n = 0; n < rows.count; ++n) {
     const PointRow row = rows.row(n);
-    if (!row.height_m || !row.p_projected) continue;
-    low = {std::min(low.x, row.p_projected->x), std::min(low.y, row.p_projected->y), std::min(low.z, *row.height_m)};
-    high = {std::max(high.x, row.p_projected->x), std::max(high.y, row.p_projected->y), 0.0};
+    if (!row.height_m || !row.has_place()) continue;
+    low = {std::min(low.x, row.p_projected.x), std::min(low.y, row.p_projected.y), std::min(low.z, *row.height_m)};
+    high = {std::max(high.x, row.p_projected.x), std::max(high.y, row.p_projected.y), 0.0};
   }
   if (low.x > high.x) return {};
   return {std::round(0.5 * (low.x + high.x)), std::round(0.5 * (low.y + high.y)), std::floor(low.z)};
@@ -239,7 +239,7 @@ void write_points_glb(const PointRows& rows, const TableFrame& frame, const std:
   GlbFile file(GlbPrimitive::points, origin_of(rows), frame, path);
   for (std::size_t n = 0; n < rows.count; ++n) {
     const PointRow row = rows.row(n);
-    if (row.height_m && row.p_projected) file.add({row.p_projected->x, row.p_projected->y, *row.height_m}, colour_of(row.svf));
+    if (row.height_m && row.has_place()) file.add({row.p_projected.x, row.p_projected.y, *row.height_m}, colour_of(row.svf));
   }
   file.commit();
 }

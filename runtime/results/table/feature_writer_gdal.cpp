@@ -187,14 +187,14 @@ class GdalFeatureWriter final : public FeatureWriter {
   CPLConfigOptionSetter synchronous_{"OGR_SQLITE_SYNCHRONOUS", "OFF", true};
   GDALDatasetUniquePtr dataset_;
   void set_point(const FeatureRow& row) {
-    if (!row.p_projected) {
+    if (std::isnan(row.p_projected.x)) {
       feature_->SetGeometryDirectly(nullptr);
       return;
     }
     if (feature_->GetGeometryRef() == nullptr) feature_->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
     OGRPoint& point = *feature_->GetGeometryRef()->toPoint();
-    point.setX(millimetres(row.p_projected->x));
-    point.setY(millimetres(row.p_projected->y));
+    point.setX(millimetres(row.p_projected.x));
+    point.setY(millimetres(row.p_projected.y));
     point.setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
   }
 

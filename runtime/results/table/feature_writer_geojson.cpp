@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,7 +19,6 @@ namespace farlod {
 namespace {
 
 constexpr std::size_t places_at_once = 1024;
-constexpr Point2d no_place{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
 void append_value(std::string& json, const FieldValue& value) {
   if (const auto* text = std::get_if<std::string_view>(&value))
@@ -124,7 +122,7 @@ void GeojsonWriter::add(const FeatureRow& row) {
     feature.properties += keys_[n];
     append_value(feature.properties, row.values[n]);
   }
-  if (geometry_ == LayerGeometry::points) add_place(row.p_projected.value_or(no_place), row.height_m);
+  if (geometry_ == LayerGeometry::points) add_place(row.p_projected, row.height_m);
   for (const SurfacePolygon& p : row.polygons) {
     std::vector<std::size_t>& rings = feature.polygons.emplace_back();
     rings.push_back(add_ring(p.shell));

@@ -118,8 +118,8 @@ void write_points_as_features(const PointRows& rows, const TableFrame& frame, Fe
     feature.values = {std::string_view(row.id)};
     for (std::size_t k = 0; k < attributes; ++k)
       feature.values.push_back(attribute_value(rows.attributes->value(n, k), layer.fields[k + 1].type));
-    feature.values.insert(feature.values.end(), {row.p_projected ? millimetres(row.p_projected->x) : FieldValue(),
-                                                 row.p_projected ? millimetres(row.p_projected->y) : FieldValue(),
+    feature.values.insert(feature.values.end(), {row.has_place() ? millimetres(row.p_projected.x) : FieldValue(),
+                                                 row.has_place() ? millimetres(row.p_projected.y) : FieldValue(),
                                                  millimetres(row.height_m), millimetres(row.above_ground_m)});
     if (rows.normals) feature.values.insert(feature.values.end(), {millimetres(row.azimuth_deg), millimetres(row.tilt_deg)});
     add_answers(row, frame.columns, feature);
@@ -136,7 +136,7 @@ void write_receivers_as_features(SurfaceSpool& receivers, const TableFrame& fram
   writer.begin(layer);
   FeatureRow feature;
   receivers.for_each([&](const SurfacePoint& r) {
-    feature.p_projected = Point2d{r.p_projected.x, r.p_projected.y};
+    feature.p_projected = {r.p_projected.x, r.p_projected.y};
     feature.height_m = r.p_projected.z;
     feature.values = {std::string_view(r.building),
                       whole(r.surface),

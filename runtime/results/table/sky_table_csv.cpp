@@ -49,8 +49,8 @@ void add_answer(const Row& row, const AnswerColumns& columns, CsvText& text) {
 }
 
 void add_point(const PointRow& r, CsvText& text) {
-  const auto& p = r.p_projected;
-  text.millimetres(p ? std::optional(p->x) : std::nullopt).millimetres(p ? std::optional(p->y) : std::nullopt);
+  const auto where_placed = [&r](double value) { return r.has_place() ? std::optional(value) : std::nullopt; };
+  text.millimetres(where_placed(r.p_projected.x)).millimetres(where_placed(r.p_projected.y));
   text.millimetres(r.height_m).millimetres(r.above_ground_m);
 }
 

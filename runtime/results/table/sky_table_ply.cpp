@@ -75,7 +75,7 @@ class Vertices {
   std::string bytes_;
 };
 
-bool has_vertex(const PointRow& row) { return row.p_projected && row.height_m; }
+bool has_vertex(const PointRow& row) { return row.has_place() && row.height_m; }
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void write_points_ply(const PointRows& rows, const TableFrame& frame, const std:
     for (std::size_t n = 0; n < rows.count; ++n) {
       const PointRow row = rows.row(n);
       if (!has_vertex(row)) continue;
-      vertices.add({row.p_projected->x, row.p_projected->y, *row.height_m}, Angle::degrees(row.azimuth_deg.value_or(0.0)),
+      vertices.add({row.p_projected.x, row.p_projected.y, *row.height_m}, Angle::degrees(row.azimuth_deg.value_or(0.0)),
                    Angle::degrees(row.tilt_deg.value_or(0.0)), row);
     }
     vertices.flush();
