@@ -143,6 +143,15 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
 #endif
 }
 
+/// What SOLWEIG may miss.
+void add_notes_of_kit(const Package& package, const SvfOptions& options, std::vector<std::string>& notes) {
+  if (!options.format->is_solweig_kit) return;
+  if (plan_of_surface_model(package))
+    notes.emplace_back("The city is a surface model, which knows no ground of its own: there is no dem.tif.");
+  else if (options.placing.above == HeightAbove::ground)
+    notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
+}
+
 /// So many pixels take long, and cells of them much memory: what is needed is told before. An estimate tells the rest itself.
 void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const SvfOptions& options, const RunSettings& run,
                          std::vector<std::string>& notes) {
@@ -170,21 +179,18 @@ void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const S
              what, rough_duration(estimate.seconds), rough_size(estimate.memory_bytes / (1 << 20)));
 }
 
+void tell_of_raster(const Package& package, const RasterPlan& plan, const SvfOptions& options, const RunSettings& run,
+                    std::vector<std::string>& notes) {
+  add_notes_of_kit(package, options, notes);
+  tell_of_many_pixels(package, plan, options, run, notes);
+}
+
 void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles& files) {
   const auto add = [&](const OutputFormat& format, const std::filesystem::path& path) {
     options.writes() ? files.add(format, frame, path) : files.plan(format, frame);
   };
   add(*options.format, options.output);
   if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
-}
-
-/// What SOLWEIG may miss.
-void add_notes_of_kit(const Package& package, const SvfOptions& options, std::vector<std::string>& notes) {
-  if (!options.format->is_solweig_kit) return;
-  if (plan_of_surface_model(package))
-    notes.emplace_back("The city is a surface model, which knows no ground of its own: there is no dem.tif.");
-  else if (options.placing.above == HeightAbove::ground)
-    notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
 }
 
 /// What to tell of crowns that nothing which was asked for knows of.
@@ -261,7 +267,7 @@ void add_notes_of_package(const Package& package, const SvfOptions& options, Wri
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {
   WrittenRun written;
   const RasterPlan plan = plan_of(package, options, written.notes);
-  add_notes_of_kit(package, options, written.notes);
+  tell_of_raster(package, plan, options, run, written.notes);
   const RasterFrame frame = frame_of(plan, options, package, run.threads);
   RasterFiles files;
   add_files(options, frame, files);
@@ -274,7 +280,6 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
     histogram.add(tile.svf);
     if (fit) fit->add(tile);
   };
-  tell_of_many_pixels(package, plan, options, run, written.notes);
   written.summary = evaluate_raster(package, plan, options.placing, options.evaluation, take, run);
   written.output_bytes = files.output_bytes();
   if (!options.writes()) return written;

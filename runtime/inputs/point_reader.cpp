@@ -196,6 +196,22 @@ void tell_doubtful_heights(const TextRecord& header, const PointFields& columns,
   if (columns.z && lower_case(header.fields[*columns.z]) == "height_m") points.doubtful_z = header.fields[*columns.z];
 }
 
+/// The header is empty where the table has none.
+void add_rows(std::span<const TextRecord> rows, const TextRecord& header, const PointFields& columns,
+              const std::filesystem::path& path, RequestedPoints& result) {
+  UnreadRows unread;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    RequestedPoint point = unread.point_or_none(rows[n], columns, [&] {
+      if (!header.fields.empty()) require_columns_for_all(rows[n], header.fields.size(), path);
+      return point_of(rows[n], columns, header, path);
+    });
+    if (point.id.empty()) point.id = std::to_string(n + 1);
+    result.points.push_back(std::move(point));
+    result.attributes.add_row(chosen_fields(rows[n], columns.attributes));
+  }
+  unread.tell(rows.size(), result);
+}
+
 }  // namespace
 
 RequestedPoints read_points_csv(const std::filesystem::path& path) {
@@ -209,18 +225,8 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
   if (header) result.attributes = attributes_of_header(records.front(), columns.attributes);
   std::vector<RequestedPoint>& points = result.points;
   points.reserve(records.size());
-  UnreadRows unread;
   const TextRecord header_row = header ? records.front() : TextRecord();
-  const std::span rows = std::span(records).subspan(header ? 1 : 0);
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    points.push_back(unread.point_or_none(rows[n], columns, [&] {
-      if (header) require_columns_for_all(rows[n], records.front().fields.size(), path);
-      return point_of(rows[n], columns, header_row, path);
-    }));
-    result.attributes.add_row(chosen_fields(rows[n], columns.attributes));
-    if (points.back().id.empty()) points.back().id = std::to_string(n + 1);
-  }
-  unread.tell(rows.size(), result);
+  add_rows(std::span(records).subspan(header ? 1 : 0), header_row, columns, path, result);
   if (header) tell_doubtful_heights(header_row, columns, path, result);
   if (points.empty()) throw PointsError(path.string() + ": the file has a header row but no points; add one in each row");
   if (header && point_columns::are_degrees(records.front().fields[*columns.x]) && may_be_lon_lat(points))

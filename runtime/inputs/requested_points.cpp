@@ -54,7 +54,7 @@ PointFields point_fields(std::span<const std::string> names, PlacesIn places,
   for (std::size_t n = 0; n < names.size(); ++n) {
     const bool is_named_id = n == fields.id && lower_case(names[n]) == id_names[0];
     const bool is_place = !in_degrees && (n == fields.x || n == fields.y);
-    // Of features with a z in their geometry, it is an attribute
+    // The geometry of features may have a z: then the field is an attribute
     const bool is_height = n == fields.z || (places == PlacesIn::fields && n == fields.above_ground);
     if (!is_named_id && !is_place && !is_height && n != fields.azimuth && n != fields.tilt) fields.attributes.push_back(n);
   }

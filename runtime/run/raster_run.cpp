@@ -15,6 +15,7 @@
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/near_buildings.hpp"
 #include "receivers/raster_receivers.hpp"
+#include "run/coarser_raster.hpp"
 #include "run/memory_limit.hpp"
 #include "run/open_tiles.hpp"
 #include "run/ordered_run.hpp"
@@ -181,28 +182,14 @@ class RasterRun {
   double memory_bytes_ = 0.0;
 };
 
-/// How many times coarser the pixels are that a dry run looks at: cells of more pixels would take long.
-std::size_t coarsening_of(const Package& package, const RasterPlan& plan) {
-  constexpr double most_along_cell = 300.0, wanted_along_cell = 200.0;
-  const double along_cell = package.description().cell_edge_m / plan.step_m;
-  return along_cell > most_along_cell ? static_cast<std::size_t>(std::ceil(along_cell / wanted_along_cell)) : 1;
-}
-
-/// A plan of the same place, whose pixels are so many times as long and wide.
-RasterPlan coarser(const RasterPlan& plan, std::size_t times) {
-  return {plan.north_west_m, plan.step_m * static_cast<double>(times), (plan.columns + times - 1) / times,
-          (plan.rows + times - 1) / times};
-}
-
 /// The estimate of a dry run. Of fine pixels, coarser ones tell what each takes; memory is that of the raster itself.
 EvaluationSummary estimate_of_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
                                      const EvaluationSettings& settings, const RunSettings& run) {
   const RasterRun of_all(package, plan, placing, settings, run);
-  const auto nobody = [](const RasterTile&) {};
-  const std::size_t times = coarsening_of(package, plan);
-  if (times == 1) return of_all.evaluate(nobody);
+  const std::size_t times = coarsening_of(plan, package.description().cell_edge_m);
+  if (times == 1) return of_all.evaluate({});
   const RasterPlan sampled = coarser(plan, times);
-  EvaluationSummary summary = RasterRun(package, sampled, placing, settings, run).evaluate(nobody);
+  EvaluationSummary summary = RasterRun(package, sampled, placing, settings, run).evaluate({});
   const double ratio = pixels_of(plan) / pixels_of(sampled);
   summary.estimate->receivers *= ratio;
   summary.estimate->seconds *= ratio;
