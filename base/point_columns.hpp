@@ -19,6 +19,8 @@ inline constexpr std::array<std::string_view, 4> id_names{"id", "station", "name
 inline constexpr std::array<std::string_view, 8> x_names{"x", "x_m", "easting", "lon", "longitude", "long", "lng", "lon_dd"};
 inline constexpr std::array<std::string_view, 6> y_names{"y", "y_m", "northing", "lat", "latitude", "lat_dd"};
 inline constexpr std::array<std::string_view, 4> z_names{"z", "z_m", "height_m", "elevation"};
+/// The height of each point above the ground: the name that results have, and the same without its unit.
+inline constexpr std::array<std::string_view, 2> above_ground_names{"height_above_ground_m", "height_above_ground"};
 inline constexpr std::array<std::string_view, 2> azimuth_names{"azimuth", "azimuth_deg"};
 inline constexpr std::array<std::string_view, 2> tilt_names{"tilt", "tilt_deg"};
 

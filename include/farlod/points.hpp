@@ -23,7 +23,13 @@ struct Points {
   /// Normals, both or neither. The azimuth is clockwise from true north, from −360° to 360°. A tilt of 0° looks straight up, of
   /// 90° level, of 180° straight down; NaN: straight up, whatever the azimuth.
   std::span<const Angle> azimuth = {}, tilt = {};
+  /// Heights above the ground of points without a z_m, 0 to 10,000, or NaN: the point stands as Placing says; empty: all do.
+  std::span<const double> above_ground_m = {};
 };
+
+/// How far from the north-up rectangle around the grid (PackageDescription::outline_projected) receivers have answers: what
+/// stands farther away is not known.
+inline constexpr double answered_beyond_grid_m = 200.0;
 
 /// Where the answers go: arrays of the caller as long as those of the points. No data is NaN.
 struct PointAnswerSpans {
@@ -45,9 +51,9 @@ struct PointAnswers {
   std::vector<double> above_ground_m = {};  ///< NaN also where there is no ground
 };
 
-/// Evaluates the sky view factors of points, inside the grid or outside of it. The same points give the same answers whatever the
-/// number of threads. Throws InvalidArgument (InvalidPoint for a point that lies nowhere), Cancelled, LimitReached,
-/// PackageUnusable, PackageDamaged.
+/// Evaluates the sky view factors of points, inside the grid or up to answered_beyond_grid_m from it; those farther away have no
+/// data (EvaluationSummary::beyond_grid). The same points give the same answers whatever the number of threads. Throws
+/// InvalidArgument (InvalidPoint for a point that lies nowhere), Cancelled, LimitReached, PackageUnusable, PackageDamaged.
 FARLOD_EXPORT EvaluationSummary evaluate_points(const Package& package, const Points& points, const Placing& placing,
                                                 const EvaluationSettings& settings, const PointAnswerSpans& answers,
                                                 const RunSettings& run = {});

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/lower_case.hpp"
@@ -19,15 +20,38 @@
 namespace farlod {
 namespace {
 
+/// Rows that have a place.
+std::vector<std::size_t> placed_rows(const NamedPoints& named) {
+  std::vector<std::size_t> placed;
+  for (std::size_t n = 0; n < named.ids.size(); ++n)
+    if (named.has_place(n)) placed.push_back(n);
+  return placed;
+}
+
+std::vector<Point2d> places_of_rows(const NamedPoints& named, std::span<const std::size_t> rows) {
+  std::vector<Point2d> places;
+  for (const std::size_t n : rows) places.push_back({named.x_m[n], named.y_m[n]});
+  return places;
+}
+
+/// Points that cannot be projected lose their place, and are counted; all of them are refused.
 void move_to_package_crs(NamedPoints& named, const std::string& crs, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
-  std::vector<Point2d> points;
-  for (std::size_t n = 0; n < named.ids.size(); ++n) points.push_back({named.x_m[n], named.y_m[n]});
-  points = gdal_files().reprojected(points, crs, package.crs_wkt);
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    named.x_m[n] = points[n].x;
-    named.y_m[n] = points[n].y;
-  }
+  const std::vector<std::size_t> placed = placed_rows(named);
+  const std::vector<Point2d> given = places_of_rows(named, placed);
+  std::vector<Point2d> moved = gdal_files().reprojected_each(given, crs, package.crs_wkt);
+  const auto is_lost = [](Point2d p) { return std::isnan(p.x); };
+  const auto lost = static_cast<std::size_t>(std::ranges::count_if(moved, is_lost));
+  if (lost == moved.size()) moved = gdal_files().reprojected(given, crs, package.crs_wkt);  // throws where there are any
+  for (std::size_t k = 0; k < placed.size(); ++k)
+    std::tie(named.x_m[placed[k]], named.y_m[placed[k]]) = std::pair(moved[k].x, moved[k].y);
+  if (lost == 0) return;
+  const auto first = static_cast<std::size_t>(std::ranges::find_if(moved, is_lost) - moved.begin());
+  named.skipped_features += lost;
+  named.notes.push_back(
+      fmt::format("{} of {} points cannot be projected and {} no answer; the first is point {} at {:.10g}, {:.10g}: "
+                  "x is the longitude or easting, y the latitude or northing.",
+                  lost, named.ids.size(), lost == 1 ? "has" : "have", named.ids[placed[first]], given[first].x, given[first].y));
 #else
   throw PointsError("--points-crs " + crs +
                     " needs GDAL, which this farlod-svf was built without: give the points in the CRS of the "
@@ -91,20 +115,24 @@ bool is_near(Point2d p, const PackageDescription& package) {
 /// How many lie near the city.
 std::size_t near_count(const NamedPoints& named, const PackageDescription& package) {
   std::size_t count = 0;
-  for (std::size_t n = 0; n < named.ids.size(); ++n) count += is_near({named.x_m[n], named.y_m[n]}, package) ? 1 : 0;
+  for (const Point2d p : places_of_rows(named, placed_rows(named))) count += is_near(p, package) ? 1 : 0;
   return count;
 }
 
-/// The points, with their coordinates taken for longitude and latitude, if that brings all of them near the city.
+/// The points, with their coordinates taken for longitude and latitude, if that brings more than half of them near the city: in
+/// some rows they may be exchanged.
 std::optional<NamedPoints> near_as_degrees(NamedPoints named, const PackageDescription& package) {
-  for (std::size_t n = 0; n < named.ids.size(); ++n)
-    if (!(std::abs(named.x_m[n]) <= 360.0 && std::abs(named.y_m[n]) <= 90.0)) return std::nullopt;
+  const std::vector<Point2d> given = places_of_rows(named, placed_rows(named));
+  const auto are_degrees = [](Point2d p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; };
+  if (2 * static_cast<std::size_t>(std::ranges::count_if(given, are_degrees)) <= given.size()) return std::nullopt;
   move_to_package_crs(named, "OGC:CRS84", package);
-  return near_count(named, package) == named.ids.size() ? std::optional(std::move(named)) : std::nullopt;
+  return 2 * near_count(named, package) > given.size() ? std::optional(std::move(named)) : std::nullopt;
 }
 
+/// The first that has a place.
 Point2d first_of(const NamedPoints& named) {
-  return named.ids.empty() ? Point2d{} : Point2d{named.x_m.front(), named.y_m.front()};
+  const std::vector<std::size_t> placed = placed_rows(named);
+  return placed.empty() ? Point2d{} : Point2d{named.x_m[placed.front()], named.y_m[placed.front()]};
 }
 
 bool is_near_as_degrees(Point2d p, const PackageDescription& package) {
@@ -123,13 +151,8 @@ struct GivenPlaces {
 
 /// Takes degrees for what they are where no CRS was said. Throws PointsError where all places lie far from the city.
 NamedPoints near_city(NamedPoints named, const GivenPlaces& given, const PackageDescription& package) {
-  const std::size_t all = named.ids.size(), near = near_count(named, package);
-  if (near == all || !is_on_some_map({named.x_m.front(), named.y_m.front()})) return named;
+  if (near_count(named, package) > 0 || !is_on_some_map(first_of(named))) return named;
   const std::string first = fmt::format("{:.10g}, {:.10g}", given.first.x, given.first.y);
-  if (near > 0) {
-    named.notes.push_back(fmt::format("{} of {} points lie more than 100 km from the city.", all - near, all));
-    return named;
-  }
   if (auto degrees = given.says_crs ? std::nullopt : near_as_degrees(named, package)) {
     degrees->notes.push_back(fmt::format("{} was taken for longitude and latitude (WGS 84).", first));
     return std::move(*degrees);
@@ -148,12 +171,16 @@ NamedPoints near_city(NamedPoints named, const GivenPlaces& given, const Package
 NamedPoints::NamedPoints(RequestedPoints requested)
     : attributes(std::move(requested.attributes)),
       notes(std::move(requested.notes)),
-      skipped_features(requested.skipped_features) {
+      skipped_features(requested.skipped_features),
+      doubtful_z(std::move(requested.doubtful_z)) {
+  const auto is_above_ground = [](const RequestedPoint& p) { return p.above_ground_m.has_value(); };
+  const bool any_above_ground = std::ranges::any_of(requested.points, is_above_ground);
   for (RequestedPoint& p : requested.points) {
     ids.push_back(std::move(p.id));
     x_m.push_back(p.x);
     y_m.push_back(p.y);
     z_m.push_back(p.z.value_or(std::nan("")));
+    if (any_above_ground) above_ground_m.push_back(p.above_ground_m.value_or(std::nan("")));
     if (!requested.has_normals) continue;
     const RequestedNormal normal = p.normal.value_or(RequestedNormal{std::nan(""), std::nan("")});
     azimuth.push_back(Angle::degrees(normal.azimuth_deg));
@@ -177,6 +204,7 @@ void NamedPoints::keep(const Region& region) {
   choose(x_m);
   choose(y_m);
   choose(z_m);
+  choose(above_ground_m);
   choose(azimuth);
   choose(tilt);
   attributes = attributes.rows(kept);

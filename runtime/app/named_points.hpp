@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,11 +20,13 @@ namespace farlod {
 /// Points as the library takes them, and what is written of them besides.
 struct NamedPoints {
   std::vector<std::string> ids;
-  std::vector<double> x_m, y_m, z_m;  ///< no height is NaN
-  std::vector<Angle> azimuth, tilt;   ///< empty where the file has none; no normal is NaN
+  std::vector<double> x_m, y_m;             ///< NaN where the file says no place that can be used
+  std::vector<double> z_m, above_ground_m;  ///< no height is NaN; empty where no point has one above the ground
+  std::vector<Angle> azimuth, tilt;         ///< empty where the file has none; no normal is NaN
   Attributes attributes;
   std::vector<std::string> notes;
   std::size_t skipped_features = 0;
+  std::string doubtful_z;  ///< as RequestedPoints::doubtful_z
 
   explicit NamedPoints(RequestedPoints requested);
   /// Leaves out the points outside of a region.
@@ -31,10 +34,11 @@ struct NamedPoints {
   /// An attribute that is called like one of our columns comes back under another name: a measured `svf` beside the computed one.
   void rename_attributes_that_clash(const AnswerColumns& columns);
   [[nodiscard]] bool has_normals() const { return !tilt.empty(); }
-  [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt}; }
+  [[nodiscard]] bool has_place(std::size_t n) const { return !std::isnan(x_m[n]); }
+  [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt, above_ground_m}; }
   /// What it holds for each point, more or less: short ids lie within their string.
   [[nodiscard]] std::size_t bytes() const {
-    return ids.size() * (sizeof(std::string) + (has_normals() ? 5 : 3) * sizeof(double)) + attributes.bytes();
+    return ids.size() * (sizeof(std::string) + (has_normals() ? 6 : 4) * sizeof(double)) + attributes.bytes();
   }
 };
 

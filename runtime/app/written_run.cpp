@@ -7,23 +7,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "app/answered_points.hpp"
 #include "app/named_points.hpp"
 #include "app/picture_options.hpp"
 #include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
-#include "app/sun_of_package.hpp"
+#include "console/progress.hpp"
 #include "farlod/error.hpp"
-#include "farlod/hemisphere.hpp"
 #include "farlod/inspection.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "results/picture/raster_preview.hpp"
-#include "results/picture/sky_picture.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
 #endif
@@ -117,71 +118,6 @@ class RasterFiles {
   double output_bytes_ = 0.0;
 };
 
-/// What is wrong with a point of a file is wrong with an input, and no mistake of ours.
-PointAnswers evaluate_named(const Package& package, const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {
-  try {
-    return evaluate_points(package, named.points(), options.placing, options.evaluation, run);
-  } catch (const InvalidPoint& error) {
-    throw PointsError("point " + named.ids[error.index()] +
-                      " lies nowhere on Earth: check its coordinates, and its CRS (--points-crs)");
-  }
-}
-
-/// A further value of the place that is looked up from, if it was asked for.
-std::optional<float> value_of(const Hemisphere& hemisphere, const SvfOptions& options, std::string_view column) {
-  const std::vector<std::string> columns = columns_of(options.evaluation.further);
-  const auto found = std::ranges::find(columns, column);
-  if (found == columns.end()) return std::nullopt;
-  return hemisphere.further.at(static_cast<std::size_t>(found - columns.begin()));
-}
-
-/// The sun's way, and for how long it shines here.
-std::optional<SunOfSky> sun_of_sky(const Package& package, const SvfOptions& options, const Hemisphere& hemisphere) {
-  if (!options.sunshine) return std::nullopt;
-  SunOfSky sun = sun_courses_of_package(package.description(), *options.sunshine);
-  const char* const period = options.sunshine->days == 1 ? "that day" : "in the year";
-  sun.legend.push_back(fmt::format("Sunshine {}:", period));
-  sun.legend.push_back(fmt::format("{:.1f} h, were the sky clear", *value_of(hemisphere, options, "sunlit_h")));
-  if (const auto hours = value_of(hemisphere, options, "sunlit_total_h"))
-    sun.legend.push_back(fmt::format("{:.1f} h with trees", *hours));
-  return sun;
-}
-
-/// Whole intervals of some hours, so that a picture of a year has some thousand suns.
-constexpr double hours_between_suns = 1.0;
-
-/// The suns of a period: one for each interval, or of the shorter ones one an hour, where the period has more than three days.
-std::vector<LitSun> suns_of(const Light& light) {
-  constexpr double hours_with_each_sun = 72.0;
-  double all_hours = 0.0, since_last = hours_between_suns;
-  for (const LightInterval& interval : light.intervals) all_hours += interval.hours;
-  std::vector<LitSun> suns;
-  for (const LightInterval& interval : light.intervals) {
-    // Half a second: hours are sums of steps
-    const bool is_next = all_hours <= hours_with_each_sun || since_last > hours_between_suns - 0.5 / 3600.0;
-    if (is_next && !interval.sun.empty()) {
-      const SunPosition& sun = interval.sun[interval.sun.size() / 2];
-      suns.push_back({{sun.azimuth.degrees(), 90.0 - sun.elevation.degrees()}, interval.direct_normal_w_m2});
-    }
-    since_last = (is_next ? 0.0 : since_last) + interval.hours;
-  }
-  return suns;
-}
-
-/// Where the sun stands in the period, and what falls on the receiver.
-std::optional<LightOfSky> light_of_sky(const SvfOptions& options, const Hemisphere& hemisphere) {
-  const Quantities& further = options.evaluation.further;
-  if (!further.light) return std::nullopt;
-  LightOfSky light{suns_of(*further.light), {"Irradiation in kWh/m²:"}};
-  constexpr std::array<std::pair<const char*, const char*>, 4> columns{{{"irradiation", "in all"},
-                                                                        {"irradiation_direct", "direct"},
-                                                                        {"irradiation_diffuse", "diffuse"},
-                                                                        {"irradiation_reflected", "reflected"}}};
-  for (const auto& [column, word] : columns)
-    light.legend.push_back(fmt::format("{:#.4g} {}", *value_of(hemisphere, options, column), word));
-  return light;
-}
-
 /// The extent of a raster: a mask needs no pixels around it.
 std::optional<Box2d> extent_of(const SvfOptions& options) {
   if (options.bbox_projected || options.evaluation.region == nullptr) return options.bbox_projected;
@@ -207,23 +143,6 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
 #endif
 }
 
-void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles& files) {
-  const auto add = [&](const OutputFormat& format, const std::filesystem::path& path) {
-    options.writes() ? files.add(format, frame, path) : files.plan(format, frame);
-  };
-  add(*options.format, options.output);
-  if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
-}
-
-/// The option that says where receivers are.
-const char* option_of_place(const SvfOptions& options) {
-  if (options.bbox_projected) return "bbox";
-  if (!options.mask_file.empty()) return "mask";
-  if (!options.grid_like.empty()) return "grid-like";
-  constexpr std::array<const char*, 5> of_sources{"grid", "points", "along", "surfaces", "at"};
-  return of_sources.at(static_cast<std::size_t>(options.source));
-}
-
 /// What SOLWEIG may miss.
 void add_notes_of_kit(const Package& package, const SvfOptions& options, std::vector<std::string>& notes) {
   if (!options.format->is_solweig_kit) return;
@@ -231,6 +150,47 @@ void add_notes_of_kit(const Package& package, const SvfOptions& options, std::ve
     notes.emplace_back("The city is a surface model, which knows no ground of its own: there is no dem.tif.");
   else if (options.placing.above == HeightAbove::ground)
     notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
+}
+
+/// So many pixels take long, and cells of them much memory: what is needed is told before. An estimate tells the rest itself.
+void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const SvfOptions& options, const RunSettings& run,
+                         std::vector<std::string>& notes) {
+  constexpr std::uint64_t many = 100'000'000;
+  const std::uint64_t pixels = std::uint64_t{plan.columns} * plan.rows;
+  if (pixels < many) return;
+  const std::string what = fmt::format("The raster has {} pixels ({} × {} of {:g} m)", with_commas(pixels),
+                                       with_commas(plan.columns), with_commas(plan.rows), plan.step_m);
+  if (options.evaluation.dry_run) {
+    notes.push_back(what + ".");
+    return;
+  }
+  EvaluationSettings asked = options.evaluation;
+  asked.dry_run = true;
+  RunSettings quiet = run;
+  quiet.on_progress = nullptr;
+  quiet.answers = nullptr;
+  quiet.shard.reset();
+  const RunEstimate estimate = *evaluate_raster(
+                                    package, plan, options.placing, asked, [](const RasterTile&) {}, quiet)
+                                    .estimate;
+  if (options.run.verbosity != Verbosity::normal) return;
+  fmt::print(stderr,
+             "{}: about {} and {} of memory in all. A larger --grid or a part (--bbox) takes less; --dry-run tells it alone.\n",
+             what, rough_duration(estimate.seconds), rough_size(estimate.memory_bytes / (1 << 20)));
+}
+
+void tell_of_raster(const Package& package, const RasterPlan& plan, const SvfOptions& options, const RunSettings& run,
+                    std::vector<std::string>& notes) {
+  add_notes_of_kit(package, options, notes);
+  tell_of_many_pixels(package, plan, options, run, notes);
+}
+
+void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles& files) {
+  const auto add = [&](const OutputFormat& format, const std::filesystem::path& path) {
+    options.writes() ? files.add(format, frame, path) : files.plan(format, frame);
+  };
+  add(*options.format, options.output);
+  if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
 }
 
 /// What to tell of crowns that nothing which was asked for knows of.
@@ -257,9 +217,31 @@ std::optional<std::string> note_of_box_maps(const PackageDescription& city, cons
                      rays < quiet_rays ? ", and " + advice : "");
 }
 
+/// What to tell of how the points were read, and of those that have no answer.
+std::vector<std::string> notes_of_points(const NamedPoints& named, const PointAnswers& answers, const PackageDescription& city) {
+  std::vector<std::string> notes = named.notes;
+  for (const auto& note : {note_of_points_beyond(named, city), note_of_heights(named, answers, city)})
+    if (note) notes.push_back(*note);
+  return notes;
+}
+
+/// Where no point has an answer since its height was taken for another one, that is what to say.
+void require_heights_above_ground(const NamedPoints& named, const PointAnswers& answers, const PackageDescription& city) {
+  const auto note = answers.summary.receivers == 0 ? note_of_heights(named, answers, city) : std::nullopt;
+  if (note) throw NoAnswer("No receiver has an answer, and nothing was written: " + *note);
+}
+
 }  // namespace
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
+
+const char* option_of_place(const SvfOptions& options) {
+  if (options.bbox_projected) return "bbox";
+  if (!options.mask_file.empty()) return "mask";
+  if (!options.grid_like.empty()) return "grid-like";
+  constexpr std::array<const char*, 5> of_sources{"grid", "points", "along", "surfaces", "at"};
+  return of_sources.at(static_cast<std::size_t>(options.source));
+}
 
 void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city) {
   if (summary.estimate ? summary.estimate->receivers >= 1.0 : summary.receivers > 0) return;
@@ -285,7 +267,7 @@ void add_notes_of_package(const Package& package, const SvfOptions& options, Wri
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {
   WrittenRun written;
   const RasterPlan plan = plan_of(package, options, written.notes);
-  add_notes_of_kit(package, options, written.notes);
+  tell_of_raster(package, plan, options, run, written.notes);
   const RasterFrame frame = frame_of(plan, options, package, run.threads);
   RasterFiles files;
   add_files(options, frame, files);
@@ -315,14 +297,16 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   NamedPoints named = requested_points(options, package.description());
   if (options.evaluation.region) named.keep(*options.evaluation.region);
   named.rename_attributes_that_clash(columns);
+  require_any_in_reach(named, options, package.description());
   run.caller_bytes = named.bytes();  // the library counts its answers
   const PointAnswers answers = evaluate_named(package, named, options, run);
   WrittenRun written{answers.summary};
-  written.notes = named.notes;
+  written.notes = notes_of_points(named, answers, package.description());
   written.skipped_features = named.skipped_features;
   written.output_bytes = bytes_of_table(*options.format, columns, named.attributes.names().size() + (named.has_normals() ? 2 : 0),
                                         static_cast<double>(named.ids.size()));
   if (!options.writes()) return written;
+  require_heights_above_ground(named, answers, package.description());
   require_answers(written.summary, options, package.description());
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
@@ -332,26 +316,6 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
     options.format->write_points(rows_of(named, answers), frame, options.output);
     histogram.write(options);
   });
-  return written;
-}
-
-WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run) {
-  const Point2d place{options.at.x, options.at.y};
-  const std::string coordinates = fmt::format("{:.2f}, {:.2f}", place.x, place.y);
-  const auto hemisphere = look_up(package, place, options.at.z, options.placing, options.evaluation, run);
-  if (!hemisphere)
-    throw InputError("There is no sky to draw at " + coordinates +
-                     ": the place lies inside a building, below the ground, or where there is no ground. Choose another.");
-  const PackageDescription& city = package.description();
-  const std::string crs = city.epsg ? "EPSG:" + std::to_string(*city.epsg) : city.crs_name;
-  const SkyCaption caption{quantity_name(options.evaluation.weight),
-                           fmt::format("{} ({}), z = {:.2f} m", coordinates, crs, hemisphere->height_m),
-                           value_of(*hemisphere, options, "svf_total")};
-  WrittenRun written{hemisphere->summary, {options.output}};
-  const std::optional<SunOfSky> sun = sun_of_sky(package, options, *hemisphere);
-  const std::optional<LightOfSky> light = light_of_sky(options, *hemisphere);
-  written.write_s =
-      seconds_of([&] { write_drawing(draw_sky(*hemisphere, options.projection, caption, sun, light), options.output); });
   return written;
 }
 

@@ -44,6 +44,9 @@ class NoAnswer : public InputError {
 /// The sky above --at, as a picture. Throws InputError where there is no answer.
 [[nodiscard]] WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run);
 
+/// The option that says where receivers are, without its dashes.
+[[nodiscard]] const char* option_of_place(const SvfOptions& options);
+
 /// Throws NoAnswer where no receiver has an answer: says where the receivers are, and where the city is.
 void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city);
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/lower_case.hpp"
 #include "base/point_columns.hpp"
 #include "base/unread_file.hpp"
 #include "inputs/text_records.hpp"
@@ -81,10 +82,19 @@ RequestedPoint point_of(const TextRecord& record, const PointFields& columns, co
   RequestedPoint point;
   point.x = coordinate(record, *columns.x, name_of(*columns.x, "x"), path);
   point.y = coordinate(record, *columns.y, name_of(*columns.y, "y"), path);
+  const auto refuse_row = [&](const std::string& what) { refuse(path, record.line, what); };
   point.z = number_if_any(record, columns.z, "z", path);
-  point.normal =
-      normal_of(number_if_any(record, columns.azimuth, "azimuth", path), number_if_any(record, columns.tilt, "tilt", path),
-                [&](const std::string& what) { refuse(path, record.line, what); });
+  point.above_ground_m = above_ground_of(number_if_any(record, columns.above_ground, "height above ground", path), refuse_row);
+  point.normal = normal_of(number_if_any(record, columns.azimuth, "azimuth", path),
+                           number_if_any(record, columns.tilt, "tilt", path), refuse_row);
+  if (columns.id && *columns.id < record.fields.size()) point.id = record.fields[*columns.id];
+  return point;
+}
+
+/// A row that cannot be read keeps its place in the table, so that rows of answers are those of the points.
+RequestedPoint point_without_place(const TextRecord& record, const PointFields& columns) {
+  RequestedPoint point;
+  point.x = point.y = std::nan("");
   if (columns.id && *columns.id < record.fields.size()) point.id = record.fields[*columns.id];
   return point;
 }
@@ -124,16 +134,18 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Rows that cannot be read. A few are left out; more are a mistake in the whole table.
+/// Rows that cannot be read. A few have no answers; more are a mistake in the whole table.
 class UnreadRows {
  public:
+  /// The point that `read` returns; one without a place where it throws.
   template <class Read>
-  void count_unless(std::size_t line, const Read& read) {
+  [[nodiscard]] RequestedPoint point_or_none(const TextRecord& row, const PointFields& columns, const Read& read) {
     try {
-      read();
+      return read();
     } catch (const PointsError& error) {
       if (!first_) first_ = error;
-      if (++count_ <= lines_named) lines_ += (count_ > 1 ? ", " : "") + std::to_string(line);
+      if (++count_ <= lines_named) lines_ += (count_ > 1 ? ", " : "") + std::to_string(row.line);
+      return point_without_place(row, columns);
     }
   }
   /// Throws the first error where more than a tenth of the rows are unread.
@@ -145,8 +157,8 @@ class UnreadRows {
           std::string(first_->what()) +
           (count_ == 1 ? "" : "; rows that cannot be read: " + std::to_string(count_) + " of " + std::to_string(rows) + lines));
     points.skipped_features = count_;
-    points.notes.push_back(std::string(first_->what()) + ". Left out of " + std::to_string(rows) +
-                           " rows, since they cannot be read: " + std::to_string(count_) + lines + ".");
+    points.notes.push_back(std::string(first_->what()) + ". " + std::to_string(count_) + " of " + std::to_string(rows) +
+                           " rows cannot be read and " + (count_ == 1 ? "has" : "have") + " no answer" + lines + ".");
   }
 
  private:
@@ -166,7 +178,39 @@ std::vector<TextRecord> records_of_points(const std::filesystem::path& path) {
   return records_in(text);
 }
 
-bool may_be_lon_lat(const RequestedPoint& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; }
+/// Longitudes and latitudes, unless most are none: in some rows they may be exchanged.
+bool may_be_lon_lat(const std::vector<RequestedPoint>& points) {
+  const auto is_one = [](const RequestedPoint& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; };
+  const auto placed = std::ranges::count_if(points, &RequestedPoint::has_place);
+  return 2 * std::ranges::count_if(points, is_one) > placed;
+}
+
+/// What names of columns may also mean: `height_m` is taken as the z that it has always been, `height` for neither.
+void tell_doubtful_heights(const TextRecord& header, const PointFields& columns, const std::filesystem::path& path,
+                           RequestedPoints& points) {
+  for (const std::size_t n : columns.attributes)
+    if (lower_case(header.fields[n]) == "height" && !columns.z && !columns.above_ground)
+      points.notes.push_back(path.string() + ": the column \"" + header.fields[n] +
+                             "\" places no point: name it height_above_ground_m for heights above the ground, or z for "
+                             "heights above sea level.");
+  if (columns.z && lower_case(header.fields[*columns.z]) == "height_m") points.doubtful_z = header.fields[*columns.z];
+}
+
+/// The header is empty where the table has none.
+void add_rows(std::span<const TextRecord> rows, const TextRecord& header, const PointFields& columns,
+              const std::filesystem::path& path, RequestedPoints& result) {
+  UnreadRows unread;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    RequestedPoint point = unread.point_or_none(rows[n], columns, [&] {
+      if (!header.fields.empty()) require_columns_for_all(rows[n], header.fields.size(), path);
+      return point_of(rows[n], columns, header, path);
+    });
+    if (point.id.empty()) point.id = std::to_string(n + 1);
+    result.points.push_back(std::move(point));
+    result.attributes.add_row(chosen_fields(rows[n], columns.attributes));
+  }
+  unread.tell(rows.size(), result);
+}
 
 }  // namespace
 
@@ -181,19 +225,11 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
   if (header) result.attributes = attributes_of_header(records.front(), columns.attributes);
   std::vector<RequestedPoint>& points = result.points;
   points.reserve(records.size());
-  UnreadRows unread;
   const TextRecord header_row = header ? records.front() : TextRecord();
-  const std::span rows = std::span(records).subspan(header ? 1 : 0);
-  for (std::size_t n = 0; n < rows.size(); ++n)
-    unread.count_unless(rows[n].line, [&] {
-      if (header) require_columns_for_all(rows[n], records.front().fields.size(), path);
-      points.push_back(point_of(rows[n], columns, header_row, path));
-      result.attributes.add_row(chosen_fields(rows[n], columns.attributes));
-      if (points.back().id.empty()) points.back().id = std::to_string(n + 1);
-    });
-  unread.tell(rows.size(), result);
+  add_rows(std::span(records).subspan(header ? 1 : 0), header_row, columns, path, result);
+  if (header) tell_doubtful_heights(header_row, columns, path, result);
   if (points.empty()) throw PointsError(path.string() + ": the file has a header row but no points; add one in each row");
-  if (header && point_columns::are_degrees(records.front().fields[*columns.x]) && std::ranges::all_of(points, may_be_lon_lat))
+  if (header && point_columns::are_degrees(records.front().fields[*columns.x]) && may_be_lon_lat(points))
     result.crs_wkt = "OGC:CRS84";
   return result;
 }

@@ -5,6 +5,9 @@
 #include <fmt/core.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "gdal/gdal_errors.hpp"
 #include "inputs/requested_points.hpp"
 
@@ -45,7 +48,7 @@ Reprojection::Reprojection(const std::string& from_crs, const std::string& to_cr
 Reprojection::Reprojection(Reprojection&&) noexcept = default;
 Reprojection::~Reprojection() = default;
 
-std::optional<std::size_t> Reprojection::apply(std::span<Point2d> points) const {
+void Reprojection::apply_each(std::span<Point2d> points) const {
   const GdalErrors errors;
   std::vector<double> x, y;
   for (const Point2d p : points) {
@@ -54,11 +57,23 @@ std::optional<std::size_t> Reprojection::apply(std::span<Point2d> points) const 
   }
   std::vector<int> is_good(points.size());
   impl_->transformation->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, is_good.data());
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    if (is_good[n] == 0) return n;
-    points[n] = {x[n], y[n]};
-  }
-  return std::nullopt;
+  for (std::size_t n = 0; n < points.size(); ++n)
+    points[n] = is_good[n] == 0 ? Point2d{std::nan(""), std::nan("")} : Point2d{x[n], y[n]};
+}
+
+std::optional<std::size_t> Reprojection::apply(std::span<Point2d> points) const {
+  std::vector<Point2d> moved(points.begin(), points.end());
+  apply_each(moved);
+  const auto refused = std::ranges::find_if(moved, [](Point2d p) { return std::isnan(p.x); });
+  std::copy(moved.begin(), refused, points.begin());
+  return refused == moved.end() ? std::nullopt : std::optional(static_cast<std::size_t>(refused - moved.begin()));
+}
+
+std::vector<Point2d> reprojected_each(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs) {
+  const Reprojection reprojection(from_crs, to_crs);
+  std::vector<Point2d> projected(points.begin(), points.end());
+  reprojection.apply_each(projected);
+  return projected;
 }
 
 std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs) {

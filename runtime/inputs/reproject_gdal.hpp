@@ -22,6 +22,8 @@ class Reprojection {
   ~Reprojection();
   /// Moves the points; returns the number of the first one that cannot be moved, if there is any.
   [[nodiscard]] std::optional<std::size_t> apply(std::span<Point2d> points) const;
+  /// Moves all points; those that cannot be moved become NaN.
+  void apply_each(std::span<Point2d> points) const;
 
  private:
   struct Impl;
@@ -33,5 +35,8 @@ class Reprojection {
 /// Throws PointsError when a CRS is not known or a point cannot be projected; it names the point by its number from 1.
 [[nodiscard]] std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs,
                                                const std::string& to_crs);
+/// The same, but points that cannot be projected become NaN.
+[[nodiscard]] std::vector<Point2d> reprojected_each(std::span<const Point2d> points, const std::string& from_crs,
+                                                    const std::string& to_crs);
 
 }  // namespace farlod

@@ -45,6 +45,7 @@ PointFields point_fields(std::span<const std::string> names, PlacesIn places,
     fields.y = find_column(names, y_names, refuse);
     fields.z = find_column(names, z_names, refuse);
   }
+  if (!fields.z) fields.above_ground = find_column(names, above_ground_names, refuse);
   fields.azimuth = find_column(names, azimuth_names, refuse);
   fields.tilt = find_column(names, tilt_names, refuse);
   if (!fields.azimuth || !fields.tilt) fields.azimuth = fields.tilt = std::nullopt;
@@ -53,7 +54,9 @@ PointFields point_fields(std::span<const std::string> names, PlacesIn places,
   for (std::size_t n = 0; n < names.size(); ++n) {
     const bool is_named_id = n == fields.id && lower_case(names[n]) == id_names[0];
     const bool is_place = !in_degrees && (n == fields.x || n == fields.y);
-    if (!is_named_id && !is_place && n != fields.z && n != fields.azimuth && n != fields.tilt) fields.attributes.push_back(n);
+    // The geometry of features may have a z: then the field is an attribute
+    const bool is_height = n == fields.z || (places == PlacesIn::fields && n == fields.above_ground);
+    if (!is_named_id && !is_place && !is_height && n != fields.azimuth && n != fields.tilt) fields.attributes.push_back(n);
   }
   return fields;
 }

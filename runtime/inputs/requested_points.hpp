@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -56,9 +57,12 @@ struct RequestedNormal {
 /// A point whose sky the user wants to know, in the CRS of the file.
 struct RequestedPoint {
   std::string id;           ///< as the file says, or the number of the point from 1
-  double x = 0.0, y = 0.0;  ///< easting and northing, or longitude and latitude
+  double x = 0.0, y = 0.0;  ///< easting and northing, or longitude and latitude; NaN of a row that cannot be read
   std::optional<double> z;
-  std::optional<RequestedNormal> normal;  ///< none: it looks straight up
+  std::optional<RequestedNormal> normal;      ///< none: it looks straight up
+  std::optional<double> above_ground_m = {};  ///< where it has no z; none: as the program is told
+
+  [[nodiscard]] bool has_place() const { return !std::isnan(x) && !std::isnan(y); }
 };
 
 /// The points of a file.
@@ -68,9 +72,20 @@ struct RequestedPoints {
   bool has_normals = false;  ///< the file has fields for them, even if they are empty
   /// As the file says, also by columns of longitudes and latitudes; empty: it says none; absent: it is a table, which need not.
   std::optional<std::string> crs_wkt = {};
-  std::size_t skipped_features = 0;  ///< of the file, which are no points
+  std::size_t skipped_features = 0;  ///< of the file, which are no points; rows of a table that cannot be read
   std::vector<std::string> notes;    ///< what the user should know of how the file was read, a sentence each
+  /// The column that z is from, where its name may also mean a height above the ground; else empty.
+  std::string doubtful_z = {};
 };
+
+/// A height above ground, of a field that may be empty. Where it is none, `refuse` is called with what is wrong; it throws.
+template <class Refuse>
+[[nodiscard]] std::optional<double> above_ground_of(std::optional<double> height_m, const Refuse& refuse) {
+  constexpr double highest_m = 10'000.0;
+  if (height_m && !(0.0 <= *height_m && *height_m <= highest_m))
+    refuse("the height above ground is not between 0 and 10,000 m; a height above sea level is called z");
+  return height_m;
+}
 
 /// The normal of two fields, of which an empty one has no number: none where both are empty; a tilt of 0 needs no azimuth.
 /// Where the two are no normal, `refuse` is called with what is wrong; it throws.
@@ -89,7 +104,8 @@ template <class Refuse>
 /// Which columns of a table, or fields of a layer, say what of a point.
 struct PointFields {
   std::optional<std::size_t> id, x, y, z, azimuth, tilt;
-  std::vector<std::size_t> attributes = {};  ///< all others, and an id that has another name than `id`
+  std::optional<std::size_t> above_ground = {};  ///< none in a table that has a z
+  std::vector<std::size_t> attributes = {};      ///< all others, and an id that has another name than `id`
 };
 
 /// Where a file says where a point is. What is called x in a file with geometries is an attribute.

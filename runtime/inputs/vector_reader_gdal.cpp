@@ -152,6 +152,8 @@ class LayerReader {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse(feature, "a coordinate is not a number");
     if (place.Is3D() != 0) point.z = place.getZ();
     if (point.z && !std::isfinite(*point.z)) refuse(feature, "its z is not a number; give the point a height, or no z");
+    const auto refuse_height = [&](const std::string& what) { refuse(feature, what); };
+    if (!point.z) point.above_ground_m = above_ground_of(number_if_any(feature, fields_.above_ground), refuse_height);
     point.normal = normal_of(number_if_any(feature, fields_.azimuth), number_if_any(feature, fields_.tilt),
                              [&](const std::string& what) { refuse(feature, what); });
     if (fields_.id) point.id = open_.text_of(feature, all_[*fields_.id]);

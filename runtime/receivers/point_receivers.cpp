@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "base/cancellation.hpp"
 #include "farlod/error.hpp"
@@ -42,6 +43,13 @@ std::optional<Point3f> stand_outside(const VerticalProfile& at_border, Point2d p
   const auto z_m = standing_height_m(at_border, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
   if (!z_m) return std::nullopt;
   return Point3f{static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), *z_m};
+}
+
+/// What the height of a place counts from, and how much it is.
+std::pair<HeightAbove, float> height_of_place(const PlaceOfReceiver& place, HeightAbove above, float height_m, double origin_m) {
+  if (place.height_m) return {HeightAbove::sea_level, static_cast<float>(*place.height_m - origin_m)};
+  if (place.above_ground_m) return {HeightAbove::ground, std::max(static_cast<float>(*place.above_ground_m), surface_offset_m)};
+  return {above, height_m};
 }
 
 /// 3 GiB. Areas are what a package says, and what is asked for is of its user: one of the two is not meant.
@@ -171,9 +179,7 @@ CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<co
     const bool is_outside = cell != existing;
     const VerticalProfile profile =
         is_outside ? locator.at(static_cast<float>(within.x), static_cast<float>(within.y)) : locator.at(x, y);
-    const bool has_height = places[n].height_m.has_value();
-    const HeightAbove from = has_height ? HeightAbove::sea_level : above;
-    const float height = has_height ? static_cast<float>(*places[n].height_m - package.manifest().height_origin_m) : height_m;
+    const auto [from, height] = height_of_place(places[n], above, height_m, package.manifest().height_origin_m);
     const auto standing = is_outside ? stand_outside(profile, {x, y}, from, height) : stand(profile, x, y, from, height);
     if (!standing) continue;
     result.receivers.push_back({n, *standing, places[n].normal_grid});

@@ -18,8 +18,9 @@ namespace farlod {
 /// A place that the user named, in the output CRS.
 struct PlaceOfReceiver {
   Point2d p_projected;
-  std::optional<double> height_m;         ///< absolute; when absent, HeightAbove decides
-  Point3f normal_grid{0.0F, 0.0F, 1.0F};  ///< where it looks, of length 1
+  std::optional<double> height_m;             ///< absolute; when absent, HeightAbove decides
+  Point3f normal_grid{0.0F, 0.0F, 1.0F};      ///< where it looks, of length 1
+  std::optional<double> above_ground_m = {};  ///< where there is no height_m; it goes before HeightAbove
 };
 
 /// The places by cell, in the order of the cells; a place's index is its position in `places`. Cells may lie outside of the grid:

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/cancellation.hpp"
+#include "farlod/points.hpp"
 #include "receivers/point_receivers.hpp"
 
 namespace farlod {

@@ -35,9 +35,6 @@ struct PixelRange {
 /// border of the grid.
 enum class BeyondGrid : std::uint8_t { is_left_out, is_answered };
 
-/// How far beyond the north-up rectangle around the grid pixels are answered at the most: what stands there is not known.
-inline constexpr double answered_beyond_grid_m = 200.0;
-
 /// The pixels of a raster by the cells that hold their centres; pixel (column, row) has index row·columns + column.
 class RasterReceivers {
  public:

@@ -34,6 +34,7 @@ struct GdalFiles {
   decltype(&read_region_gdal) read_region;
   decltype(&read_table_gdal) read_table;
   decltype(&farlod::reprojected) reprojected;
+  decltype(&farlod::reprojected_each) reprojected_each;
 };
 
 /// Loads the module at the first call. Throws InputError where it is missing.

@@ -26,7 +26,8 @@ constexpr GdalFiles functions{.geotiff = geotiff_writer,
                               .read_raster_grid = read_raster_grid_gdal,
                               .read_region = read_region_gdal,
                               .read_table = read_table_gdal,
-                              .reprojected = reprojected};
+                              .reprojected = reprojected,
+                              .reprojected_each = reprojected_each};
 
 }  // namespace
 }  // namespace farlod

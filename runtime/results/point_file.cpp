@@ -31,8 +31,22 @@ RequestedPoints read_point_file(const std::filesystem::path& file, const std::st
   return read_points_csv(file);
 }
 
+namespace {
+
+RequestedPoints with_places_alone(RequestedPoints read) {
+  std::vector<std::size_t> placed;
+  for (std::size_t n = 0; n < read.points.size(); ++n)
+    if (read.points[n].has_place()) placed.push_back(n);
+  if (placed.size() == read.points.size()) return read;
+  read.attributes = read.attributes.rows(placed);
+  std::erase_if(read.points, [](const RequestedPoint& p) { return !p.has_place(); });
+  return read;
+}
+
+}  // namespace
+
 RequestedPoints read_points_in([[maybe_unused]] const std::string& crs_wkt, const std::filesystem::path& file) {
-  RequestedPoints read = read_point_file(file, "", true);
+  RequestedPoints read = with_places_alone(read_point_file(file, "", true));
 #ifdef FARLOD_WITH_GDAL
   if (read.crs_wkt.value_or("").empty()) return read;
   std::vector<Point2d> places;

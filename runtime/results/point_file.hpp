@@ -17,8 +17,8 @@ namespace farlod {
 [[nodiscard]] RequestedPoints read_point_file(const std::filesystem::path& file, const std::string& layer = {},
                                               bool may_be_empty = false);
 
-/// The points of a file, which may have none, in a CRS. Those of a file that says no CRS are taken as they are. Throws
-/// PointsError.
+/// The points of a file, which may have none, in a CRS, without rows that have no place. Those of a file that says no CRS are
+/// taken as they are. Throws PointsError.
 [[nodiscard]] RequestedPoints read_points_in(const std::string& crs_wkt, const std::filesystem::path& file);
 
 }  // namespace farlod

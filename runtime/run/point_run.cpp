@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/run_settings.hpp"
+#include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
 #include "package/manifest.hpp"
@@ -32,6 +33,7 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
   if (!points.z_m.empty()) require_as_long("z_m", points.z_m.size(), count);
   if (!points.azimuth.empty()) require_as_long("azimuth", points.azimuth.size(), count);
   if (!points.tilt.empty()) require_as_long("tilt", points.tilt.size(), count);
+  if (!points.above_ground_m.empty()) require_as_long("above_ground_m", points.above_ground_m.size(), count);
   if (points.azimuth.empty() != points.tilt.empty())
     throw InvalidArgument("a normal is an azimuth and a tilt, and one of the two is not given: give both, or neither");
   require_as_long("svf", answers.svf.size(), count);
@@ -91,6 +93,17 @@ Point3f normal_of_point(const Points& points, std::size_t n, const package::Mani
   return {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)};
 }
 
+/// None where the point has a height above sea level, or none at all.
+std::optional<double> above_ground_of_point(const Points& points, std::size_t n, const PlaceOfReceiver& place) {
+  if (points.above_ground_m.empty() || place.height_m || std::isnan(points.above_ground_m[n])) return std::nullopt;
+  constexpr double highest_m = 10'000.0;
+  if (!(0.0 <= points.above_ground_m[n] && points.above_ground_m[n] <= highest_m))
+    throw InvalidPoint(n, "the point of index " + std::to_string(n) +
+                              " (counted from 0) has a height above ground that is not between 0 and 10,000 m: give one that is, "
+                              "or NaN to place it like the others");
+  return points.above_ground_m[n];
+}
+
 std::vector<PlaceOfReceiver> places_of(const Points& points, const package::Manifest& manifest) {
   std::vector<PlaceOfReceiver> places(points.x_m.size());
   for (std::size_t n = 0; n < places.size(); ++n) {
@@ -98,25 +111,33 @@ std::vector<PlaceOfReceiver> places_of(const Points& points, const package::Mani
     if (!points.z_m.empty() && !std::isnan(points.z_m[n])) places[n].height_m = points.z_m[n];
     require_usable(places[n], manifest, n);
     places[n].normal_grid = normal_of_point(points, n, manifest);
+    places[n].above_ground_m = above_ground_of_point(points, n, places[n]);
   }
   return places;
 }
 
-using PlacesByCell = std::vector<std::pair<Cell, std::vector<std::size_t>>>;
+/// The places that are evaluated, by their cells along the curve, and how many of those that are wanted lie too far away.
+struct PlacesByCell {
+  std::vector<std::pair<Cell, std::vector<std::size_t>>> cells;
+  std::size_t beyond_grid = 0;
+};
 
 PlacesByCell places_along_curve(const PackageReader& package, std::span<const PlaceOfReceiver> places,
                                 const ResolvedSettings& settings) {
   std::map<Cell, std::vector<std::size_t>> by_cell;
   std::vector<Cell> cells;
+  PlacesByCell result;
+  const package::Manifest& manifest = package.manifest();
+  const Box2d answered = grown(manifest.projected_outline(manifest.grid.rectangle()), answered_beyond_grid_m);
   for (auto& [cell, chosen] : places_by_cell(package, places)) {
     std::erase_if(chosen, [&](std::size_t n) { return !settings.wants(places[n].p_projected); });
+    result.beyond_grid += std::erase_if(chosen, [&](std::size_t n) { return !answered.contains(places[n].p_projected); });
     if (chosen.empty()) continue;
     cells.push_back(cell);
     by_cell[cell] = std::move(chosen);
   }
-  PlacesByCell result;
   for (const Cell cell : along_hilbert_curve(std::move(cells), package.grid().block_edge))
-    result.emplace_back(cell, std::move(by_cell[cell]));
+    result.cells.emplace_back(cell, std::move(by_cell[cell]));
   return result;
 }
 
@@ -124,7 +145,7 @@ MemoryNeeds needs_of(const PackageReader& package, Engine engine, std::size_t po
   // A point, and its place in its cell; its answer is the caller's
   constexpr double bytes_of_point = sizeof(PlaceOfReceiver) + sizeof(std::size_t);
   MemoryNeeds needs{static_cast<double>(point_count) * bytes_of_point};
-  for (const auto& [cell, chosen] : cells) {
+  for (const auto& [cell, chosen] : cells.cells) {
     needs.receivers_of_cell = std::max(needs.receivers_of_cell, static_cast<double>(chosen.size()));
     needs.whole_city = needs.whole_city || any_traces_whole_city(package, engine, {&cell, 1});
   }
@@ -160,11 +181,13 @@ class PointCells final : public CellsOfRun {
              const Placing& placing, const std::stop_token& stop, const PointAnswerSpans& answers)
       : package_(package), places_(places), cells_(cells), placing_(placing), stop_(stop), answers_(answers) {}
 
-  [[nodiscard]] std::size_t size() const override { return cells_.size(); }
-  [[nodiscard]] Cell place(std::size_t n) const override { return cells_[n].first; }
-  [[nodiscard]] double receivers_about(std::size_t n) const override { return static_cast<double>(cells_[n].second.size()); }
+  [[nodiscard]] std::size_t size() const override { return cells_.cells.size(); }
+  [[nodiscard]] Cell place(std::size_t n) const override { return cells_.cells[n].first; }
+  [[nodiscard]] double receivers_about(std::size_t n) const override {
+    return static_cast<double>(cells_.cells[n].second.size());
+  }
   [[nodiscard]] CellReceivers receivers(std::size_t n) override {
-    return receivers_at(package_, cells_[n].first, places_, cells_[n].second, placing_.above,
+    return receivers_at(package_, cells_.cells[n].first, places_, cells_.cells[n].second, placing_.above,
                         package_height_m(placing_, package_.manifest()), stop_, answers_.above_ground_m);
   }
   void store(std::size_t, const CellReceivers& cell, const SvfValues& values) override {
@@ -183,8 +206,9 @@ class PointCells final : public CellsOfRun {
 /// The summary of a run over all points.
 EvaluationSummary with_counts(EvaluationSummary summary, std::size_t points, const PlacesByCell& cells) {
   std::size_t asked = 0;
-  for (const auto& [cell, chosen] : cells) asked += chosen.size();
-  summary.outside_of_region = points - asked;
+  for (const auto& [cell, chosen] : cells.cells) asked += chosen.size();
+  summary.outside_of_region = points - asked - cells.beyond_grid;
+  summary.beyond_grid = cells.beyond_grid;
   summary.no_data = asked - summary.receivers;
   return summary;
 }

@@ -15,6 +15,7 @@
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/near_buildings.hpp"
 #include "receivers/raster_receivers.hpp"
+#include "run/coarser_raster.hpp"
 #include "run/memory_limit.hpp"
 #include "run/open_tiles.hpp"
 #include "run/ordered_run.hpp"
@@ -56,6 +57,8 @@ TileRange tiles_over(const PixelRange& pixels) {
   return {{pixels.row_begin / raster_tile_edge, pixels.column_begin / raster_tile_edge},
           {tiles_along(pixels.row_end), tiles_along(pixels.column_end)}};
 }
+
+double pixels_of(const RasterPlan& plan) { return static_cast<double>(plan.columns) * static_cast<double>(plan.rows); }
 
 double pixels_of(const PixelRange& pixels) {
   return static_cast<double>(pixels.column_end - pixels.column_begin) * static_cast<double>(pixels.row_end - pixels.row_begin);
@@ -170,6 +173,8 @@ class RasterRun {
     return summary;
   }
 
+  [[nodiscard]] double memory_bytes() const { return memory_bytes_; }
+
  private:
   [[nodiscard]] static const RasterPlan& checked(const RasterPlan& plan) {
     require_usable(plan);
@@ -187,6 +192,20 @@ class RasterRun {
   std::size_t further_bands_;
   double memory_bytes_ = 0.0;
 };
+
+/// The estimate of a dry run. Of fine pixels, coarser ones tell what each takes; memory is that of the raster itself.
+EvaluationSummary estimate_of_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
+                                     const EvaluationSettings& settings, const RunSettings& run) {
+  const RasterRun of_all(package, plan, placing, settings, run);
+  const std::size_t times = coarsening_of(plan, package.description().cell_edge_m);
+  if (times == 1) return of_all.evaluate({});
+  const RasterPlan sampled = coarser(plan, times);
+  EvaluationSummary summary = RasterRun(package, sampled, placing, settings, run).evaluate({});
+  const double ratio = pixels_of(plan) / pixels_of(sampled);
+  summary.estimate->receivers *= ratio;
+  summary.estimate->seconds *= ratio;
+  return with_memory(std::move(summary), of_all.memory_bytes());
+}
 
 void require_within(const RasterWindow& window, const RasterPlan& plan) {
   if (window.columns == 0 || window.rows == 0)
@@ -332,6 +351,7 @@ std::optional<RasterPlan> plan_of_surface_model(const Package& package, const st
 EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
                                   const EvaluationSettings& settings, const OnRasterTile& on_tile, const RunSettings& run) {
   if (!on_tile) throw InvalidArgument("nobody takes the tiles: give evaluate_raster a function that does");
+  if (settings.dry_run) return estimate_of_raster(package, plan, placing, settings, run);
   return RasterRun(package, plan, placing, settings, run).evaluate(on_tile);
 }
 

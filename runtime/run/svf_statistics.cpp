@@ -17,8 +17,12 @@ void SvfDistribution::add(std::span<const float> values) {
 double SvfDistribution::median() const {
   std::uint64_t all = 0;
   for (const std::uint64_t count : counts_) all += count;
+  return 0.5 * (value_after((all - 1) / 2) + value_after(all / 2));
+}
+
+double SvfDistribution::value_after(std::uint64_t before) const {
   std::size_t part = 0;
-  for (std::uint64_t before = counts_[0]; 2 * before < all; before += counts_[part]) ++part;
+  for (std::uint64_t up_to = counts_[0]; up_to <= before; up_to += counts_[part]) ++part;
   return (static_cast<double>(part) + 0.5) / static_cast<double>(parts);
 }
 

@@ -50,11 +50,14 @@ struct SvfStatistics {
 class SvfDistribution {
  public:
   void add(std::span<const float> values);
-  /// The middle of the part in which the middle value lies (of an even number, the lower one): within .00005 of it. There must be
-  /// a value.
+  /// The middle of the part in which the middle value lies: within .00005 of it. Of an even number, the mean of the two in the
+  /// middle. There must be a value.
   [[nodiscard]] double median() const;
 
  private:
+  /// The middle of the part in which the value lies that has `before` smaller ones before it.
+  [[nodiscard]] double value_after(std::uint64_t before) const;
+
   static constexpr std::size_t parts = 10'000;
   std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(parts);
 };

@@ -21,16 +21,11 @@ using testing::HasSubstr;
 /// In the middle of a crossing of two streets, with the far city on all sides.
 const Point2d crossing = p_projected({-60.0, 0.0});
 
-TEST_F(PackedTown, APointFarFromTheCitySeesTheWholeSky) {
-  // Ten kilometres away the town stands 0.5° high at most, which hides sin²(0.5°) of the view factor: no ray in 1,000
-  EXPECT_EQ(svf_at(text_of(town_middle + Point2d{10000.0, 0.0})), 1.0);
-}
-
 /// The town is at 9° E, 49.6525° N; what is asked is a field in the north of it.
 TEST_F(PackedTown, ColumnsOfLongitudesAndLatitudesAreDegrees) {
-  folder.write("stations.csv", "station,lon,lat\nA,9.0,49.664\n");
+  folder.write("stations.csv", "station,lon,lat\nA,9.0,49.655\n");
   folder.write("same.geojson",
-               R"({"type":"Feature","properties":{"station":"A"},"geometry":{"type":"Point","coordinates":[9.0,49.664]}})");
+               R"({"type":"Feature","properties":{"station":"A"},"geometry":{"type":"Point","coordinates":[9.0,49.655]}})");
   folder.must("farlod-svf a.farlod -o o.csv --points stations.csv");
   folder.must("farlod-svf a.farlod -o same.csv --points same.geojson");
   for (const char* column : {"x_m", "y_m", "svf"})
@@ -38,8 +33,8 @@ TEST_F(PackedTown, ColumnsOfLongitudesAndLatitudesAreDegrees) {
 }
 
 TEST_F(PackedTown, APlaceInDegreesIsTakenForOneAndToldWhereItFits) {
-  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --at 9.0,49.664");
-  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("9, 49.664 was taken for longitude and latitude (WGS 84)."));
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --at 9.0,49.655");
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("9, 49.655 was taken for longitude and latitude (WGS 84)."));
   EXPECT_NEAR(table("o.csv").number(0, "x_m"), 500000.0, 1.0);
 }
 
@@ -49,20 +44,14 @@ TEST_F(PackedTown, APlaceFarFromTheCityIsRefused) {
     EXPECT_EQ(outcome.exit_code, 3) << place;
     return outcome.err;
   };
-  EXPECT_THAT(refusal("49.664,9.0"), HasSubstr("give the longitude before the latitude"));
+  EXPECT_THAT(refusal("49.655,9.0"), HasSubstr("give the longitude before the latitude"));
   EXPECT_THAT(refusal("4,52"), HasSubstr("lies more than 100 km from the city"));
   EXPECT_THAT(refusal("5500000,500000"), HasSubstr("they are of that CRS, or longitude and latitude"));
-  folder.write("swapped.csv", "lon,lat\n49.664,9.0\n");
+  folder.write("swapped.csv", "lon,lat\n49.655,9.0\n");
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points swapped.csv");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("49.664, 9 lies more than 100 km"), HasSubstr("give the longitude before the latitude")));
-}
-
-TEST_F(PackedTown, FarPlacesAmongOthersAreCounted) {
-  folder.write("some.csv", "x,y\n" + text_of(crossing) + "\n0,0\n");
-  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points some.csv");
-  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("1 of 2 points lie more than 100 km from the city."));
+              AllOf(HasSubstr("49.655, 9 lies more than 100 km"), HasSubstr("give the longitude before the latitude")));
 }
 
 TEST(TwoBlocks, APointNextToThemButOutsideOfTheGridHasHorizons) {

@@ -57,7 +57,7 @@ TEST_F(PackedTown, QuantitiesAreBandsOfARaster) {
 }
 
 TEST_F(PackedTown, TheSunOfTheOpenIsThatOfItsDay) {
-  const Point2d open = town_middle + Point2d{20000.0, 0.0};
+  const Point3d open{town_middle.x, town_middle.y, 5000.0};
   folder.must("farlod-svf a.farlod -o o.csv --sun 2026-12-21 --at " + text_of(open));
   EXPECT_NEAR(table("o.csv").number(0, "sunlit_h"), 8.0, 0.25);
   folder.must("farlod-svf a.farlod -o o.csv --sun 2026 --at " + text_of(open));
@@ -89,7 +89,7 @@ constexpr const char* day_of_weather =
 
 TEST_F(PackedTown, IrradiationOfAWeatherFileIsThatOfItsHours) {
   folder.write("day.csv", day_of_weather);
-  const Point2d open = town_middle + Point2d{20000.0, 0.0};
+  const Point3d open{town_middle.x, town_middle.y, 5000.0};
   folder.must(
       "farlod-svf a.farlod -o o.csv --weather day.csv --quantity irradiation,irradiance,shade,sky_component --by month "
       "--summary s.json --at " +

@@ -305,7 +305,7 @@ TEST_F(Answers, SayTheErrorOfWhatAnswered) {
   const double of_rays = accuracy_of(rays).sampling_error;
   ASSERT_LT(accuracy_of(horizons).sampling_error, of_rays);
   const Point2d beyond = package_.description().outline_projected.high;
-  const std::vector<double> x{beyond.x + 500.0}, y{beyond.y + 500.0};
+  const std::vector<double> x{beyond.x + 150.0}, y{beyond.y + 150.0};
   const PointAnswers outside = evaluate_points(package_, {x, y}, {}, horizons);
   ASSERT_EQ(outside.summary.outside_of_grid, 1U);
   EXPECT_EQ(outside.summary.accuracy.sampling_error, accuracy_of(horizons).sampling_error);

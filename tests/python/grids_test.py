@@ -134,3 +134,26 @@ def test_ground(bridges_path: str) -> None:
     ground = farlod.open(bridges_path).ground(5.0)
     assert ground.dims == ("y", "x") and np.isfinite(ground.values).any()
     assert ground.attrs["units"] == "m"
+
+
+def test_a_raster_that_has_no_room_names_its_step(village: farlod.City, monkeypatch: pytest.MonkeyPatch) -> None:
+    from farlod import _grids
+
+    def no_memory(*_: object) -> None:
+        raise MemoryError("std::bad_alloc")
+
+    said = r"step is 2: a raster of [0-9,]+ pixels \([0-9]+ x [0-9]+\) takes .* larger step"
+    with monkeypatch.context() as patch:
+        patch.setattr(_grids, "_memory_of_machine", lambda: 100)
+        with pytest.raises(farlod.errors.LimitReached, match=said):
+            village.svf_grid(2.0)
+    monkeypatch.setattr(_grids._runtime, "evaluate_raster", no_memory)
+    with pytest.raises(farlod.errors.LimitReached, match=said):
+        village.svf_grid(2.0)
+
+
+def test_a_step_out_of_range_is_named_as_the_argument_is(village: farlod.City) -> None:
+    for step in (0.0, -1.0, 0.001, 20_000.0):
+        for call in (village.svf_grid, village.ground):
+            with pytest.raises(farlod.errors.InvalidArgument, match=f"^step is {step}: give 0.01 to 10,000 metres"):
+                call(step)

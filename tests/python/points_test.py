@@ -143,3 +143,25 @@ def test_heights_above(canyon: farlod.City) -> None:
     assert canyon.svf(roof, above="surface", height=1.0)[0] == pytest.approx(1.0, abs=1e-3)
     assert canyon.evaluate(roof, above="surface", height=1.0).height[0] == pytest.approx(CANYON_HEIGHT + 1.0, abs=1e-3)
     assert canyon.evaluate(roof, above="sea", height=50.0).height[0] == pytest.approx(50.0, abs=1e-3)
+
+
+def test_points_far_from_the_city_have_no_answer_and_are_told_once(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    middle, far, near = [(west + east) / 2, (south + north) / 2], [east + 201.0, north], [east + 199.0, north]
+    with pytest.warns(UserWarning, match=r"1 of 3 points lie more than 200 m .* first is point 1 ") as told:
+        svf = village.svf([[*middle, 300.0], [*far, np.nan], [*near, np.nan]])
+    assert len(told) == 1 and told[0].filename == __file__
+    np.testing.assert_array_equal(np.isnan(svf), [False, True, False])
+    with pytest.raises(farlod.errors.InvalidArgument, match="more than 200 m beyond the grid of the city"):
+        village.svf([far, far])
+    with pytest.raises(farlod.errors.InvalidArgument, match="more than 200 m beyond the grid of the city"):
+        village.look_up(far)
+
+
+def test_a_geoseries_of_a_wrong_crs_is_refused(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    here = geopandas.GeoSeries.from_xy([(west + east) / 2], [(south + north) / 2], crs=village.crs)
+    assert len(village.svf(here)) == 1
+    wrong = here.set_crs("EPSG:32633", allow_override=True)
+    with pytest.raises(farlod.errors.InvalidArgument, match="100 km from the city.* check the CRS of the GeoSeries"):
+        village.svf(wrong)

@@ -207,8 +207,9 @@ def test_closed_city(village: farlod.City, function: str) -> None:
             pass
 
 
-def test_points_of_another_country_see_all_of_the_sky(village: farlod.City) -> None:
-    assert village.svf(LONDON).to_list() == [1.0]
+def test_points_of_another_country_are_refused(village: farlod.City) -> None:
+    with pytest.raises(farlod.InvalidArgument, match="100 km from the city"):
+        village.svf(LONDON)
 
 
 def test_memory_limit(village: farlod.City) -> None:

@@ -94,9 +94,10 @@ def test_no_answer_of_nothing(village: farlod.City, function: str, arguments: An
         assert text in str(raised.value)
 
 
-def test_points_with_a_crs_may_be_anywhere(village: farlod.City) -> None:
+def test_points_with_a_crs_are_those_of_the_city(village: farlod.City) -> None:
     london = geopandas.GeoSeries([shapely.geometry.Point(-0.1, 51.5)], crs="EPSG:4326")
-    assert village.svf(london).to_list() == [1.0]
+    with pytest.raises(farlod.InvalidArgument, match="100 km from the city.*: check the CRS of the GeoSeries"):
+        village.svf(london)
 
 
 def test_second_run_names_the_argument(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,7 @@ from farlod._crs import crs_of_array
 from farlod._modules import runtime as _runtime
 from farlod._settings import Evaluation
 from farlod._sky_patches import middle_of_patches
-from farlod.errors import InvalidArgument
+from farlod.errors import InvalidArgument, LimitReached
 
 if TYPE_CHECKING:
     import pandas
@@ -83,7 +84,27 @@ def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
     if box is not None:
         _require_of_city(box, package.description())
     own = _runtime.plan_of_surface_model(package, box) if step is None else None
-    return own or _runtime.plan_raster(package, 1.0 if step is None else _arguments.number("step", step), box)
+    return own or _runtime.plan_raster(package, 1.0 if step is None else _step(step), box)
+
+
+def _step(step: Any) -> float:
+    finest_m, coarsest_m = 0.01, 10_000.0
+    edge_m = _arguments.number("step", step)
+    if not finest_m <= edge_m <= coarsest_m:
+        raise InvalidArgument(f"step is {_arguments.shown(step)}: give {finest_m:g} to {coarsest_m:,.0f} metres")
+    return edge_m
+
+
+def _memory_of_machine() -> int:
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+
+
+def _no_room(pixels: Any, bytes_needed: int) -> LimitReached:
+    return LimitReached(
+        f"step is {pixels.step_m:g}: a raster of {pixels.columns * pixels.rows:,} pixels ({pixels.columns:,} x {pixels.rows:,}) takes "
+        f"{bytes_needed / 2**30:,.1f} GiB of memory and more, which this machine does not have: give a larger step, a part (bbox), or "
+        "chunks"
+    )
 
 
 def _names(evaluation: Evaluation) -> list[str]:
@@ -188,9 +209,17 @@ def _dataset(
 
 def eager(package: Any, pixels: Any, evaluation: Evaluation, crs: Any, like: Any) -> xarray.Dataset:
     """The raster, computed now. The figures of the run are its attribute ``summary``, as JSON: files keep words and numbers."""
-    raster = _runtime.evaluate_raster(
-        package, pixels, evaluation.placing(), evaluation.settings(), evaluation.caller()
-    )
+    bytes_needed = 4 * len(_names(evaluation)) * pixels.columns * pixels.rows
+    if bytes_needed > _memory_of_machine():
+        raise _no_room(pixels, bytes_needed)
+    try:
+        raster = _runtime.evaluate_raster(
+            package, pixels, evaluation.placing(), evaluation.settings(), evaluation.caller()
+        )
+    except LimitReached:
+        raise
+    except MemoryError:
+        raise _no_room(pixels, bytes_needed) from None
     bands = dict(zip(_names(evaluation), _bands(raster)))
     return _dataset(bands, pixels, _attributes(evaluation), crs, like, {"summary": json.dumps(raster["summary"])})
 

@@ -70,7 +70,8 @@ class PointsOfCity(OpenCity):
         points : array_like of float, (n, 2) or (n, 3); geopandas.GeoSeries or GeoDataFrame of points
             Easting and northing in metres of the CRS of the city; the third column is the height above sea level, NaN where
             ``height`` and ``above`` place the point. A GeoSeries is brought from its CRS into the city's, and the answer is a
-            pandas.Series with its index. An array whose points all lie more than 100 km from the city is refused.
+            pandas.Series with its index. Points more than 200 m beyond the grid (``bounds``) have no answer: NaN, and a warning;
+            where all lie there, they are refused.
         normals : array_like of float, (n, 3) or (n, 2), optional
             Where the points look: vectors along the axes of the CRS (east, north, up), of any length; or azimuths (clockwise
             from true north) and tilts (0 looks up, 90 level, 180 down), in degrees. Straight up without it.

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -88,20 +89,48 @@ def _facing(normals: Any, count: int, convergence_deg: float) -> tuple[Floats, F
     return azimuth, np.degrees(np.arctan2(level, up))
 
 
-def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str) -> None:
-    """Refuses points without a CRS of their own that all lie far from a city: all sky, where somebody has mixed up coordinates."""
-    farthest_m, farthest_on_maps_m = 100_000.0, 1e8
-    west, south, east, north = bounds
-    distance = np.hypot(x - (west + east) / 2.0, y - (south + north) / 2.0)
-    # What lies nowhere on Earth is told by the library, with its index
-    if x.size == 0 or not (np.abs(x) + np.abs(y) < farthest_on_maps_m).all() or distance.min() <= farthest_m:
-        return
+#: How far from the grid points have answers, as the library has it (answered_beyond_grid_m).
+_ANSWERED_BEYOND_GRID_M = 200.0
+
+
+def _advice(x: Floats, y: Floats, has_crs: bool) -> str:
+    if has_crs:
+        return "check the CRS of the GeoSeries"
     are_degrees = bool((np.abs(x) <= 360.0).all() and (np.abs(y) <= 180.0).all())
-    raise InvalidArgument(
-        f"points begin with ({x[0]:.10g}, {y[0]:.10g}), and all lie more than 100 km from the city, which is at "
-        f"({(west + east) / 2.0:.0f}, {(south + north) / 2.0:.0f}) in {crs}: give "
-        + ('degrees as a GeoSeries with crs="EPSG:4326"' if are_degrees else "easting and northing in this CRS, or a GeoSeries with its CRS")
+    return (
+        'give degrees as a GeoSeries with crs="EPSG:4326"'
+        if are_degrees
+        else "give easting and northing in this CRS, or a GeoSeries with its CRS"
     )
+
+
+def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str, *, has_crs: bool = False) -> None:
+    """Refuses points that all lie beyond the city, where none has an answer, and warns of some that do."""
+    farthest_m, farthest_on_maps_m, reach_m = 100_000.0, 1e8, _ANSWERED_BEYOND_GRID_M
+    west, south, east, north = bounds
+    # What lies nowhere on Earth is told by the library, with its index
+    if x.size == 0 or not (np.abs(x) + np.abs(y) < farthest_on_maps_m).all():
+        return
+    distance = np.hypot(x - (west + east) / 2.0, y - (south + north) / 2.0)
+    begin = f"points begin with ({x[0]:.10g}, {y[0]:.10g}), and all lie more than "
+    if distance.min() > farthest_m:
+        raise InvalidArgument(
+            f"{begin}100 km from the city, which is at ({(west + east) / 2.0:.0f}, {(south + north) / 2.0:.0f}) in {crs}: "
+            + _advice(x, y, has_crs)
+        )
+    beyond = (x < west - reach_m) | (x > east + reach_m) | (y < south - reach_m) | (y > north + reach_m)
+    if beyond.all():
+        raise InvalidArgument(
+            f"{begin}{reach_m:g} m beyond the grid of the city, where no point has an answer; it lies from {west:.0f}, {south:.0f} "
+            f"to {east:.0f}, {north:.0f} in {crs}: check the coordinates"
+        )
+    if beyond.any():
+        first = int(beyond.argmax())
+        warnings.warn(
+            f"{beyond.sum()} of {x.size} points lie more than {reach_m:g} m beyond the grid of the city and have no answer: NaN. The "
+            f"first is point {first} (counted from 0) at ({x[first]:.10g}, {y[first]:.10g})",
+            stacklevel=4,
+        )
 
 
 def receivers_of(points: Any, normals: Any, crs_wkt: str, convergence_deg: float) -> Receivers:

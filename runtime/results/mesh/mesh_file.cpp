@@ -164,7 +164,7 @@ Point3d origin_of(const PointRows& rows) {
   Point3d low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (std::size_t n = 0; n < rows.count; ++n) {
     const PointRow row = rows.row(n);
-    if (!row.height_m) continue;
+    if (!row.height_m || !row.has_place()) continue;
     low = {std::min(low.x, row.p_projected.x), std::min(low.y, row.p_projected.y), std::min(low.z, *row.height_m)};
     high = {std::max(high.x, row.p_projected.x), std::max(high.y, row.p_projected.y), 0.0};
   }
@@ -239,7 +239,7 @@ void write_points_glb(const PointRows& rows, const TableFrame& frame, const std:
   GlbFile file(GlbPrimitive::points, origin_of(rows), frame, path);
   for (std::size_t n = 0; n < rows.count; ++n) {
     const PointRow row = rows.row(n);
-    if (row.height_m) file.add({row.p_projected.x, row.p_projected.y, *row.height_m}, colour_of(row.svf));
+    if (row.height_m && row.has_place()) file.add({row.p_projected.x, row.p_projected.y, *row.height_m}, colour_of(row.svf));
   }
   file.commit();
 }

@@ -37,7 +37,7 @@ using FieldValue = std::variant<std::monostate, std::string_view, std::int64_t, 
 
 /// A row of a layer.
 struct FeatureRow {
-  Point2d p_projected;                        ///< of a point
+  Point2d p_projected;                        ///< of a point; NaN: it has no geometry
   std::optional<double> height_m;             ///< likewise
   std::vector<FieldValue> values;             ///< as many as FeatureLayer::fields
   std::vector<SurfacePolygon> polygons = {};  ///< of an area one, whose heights do not count

@@ -148,11 +148,7 @@ class GdalFeatureWriter final : public FeatureWriter {
     }
     throw_if_any(errors);
     feature_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
-    point_ = nullptr;
     geometry_ = layer.geometry;
-    if (layer.geometry != LayerGeometry::points) return;
-    feature_->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
-    point_ = feature_->GetGeometryRef()->toPoint();
   }
   void add(const FeatureRow& row) override {
     const GdalErrors errors;
@@ -160,11 +156,7 @@ class GdalFeatureWriter final : public FeatureWriter {
     FARLOD_EXPECTS(static_cast<int>(row.values.size()) == feature.GetFieldCount());
     feature.SetFID(OGRNullFID);
     for (std::size_t n = 0; n < row.values.size(); ++n) set_value(feature, static_cast<int>(n), row.values[n]);
-    if (point_ != nullptr) {
-      point_->setX(millimetres(row.p_projected.x));
-      point_->setY(millimetres(row.p_projected.y));
-      point_->setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
-    }
+    if (geometry_ == LayerGeometry::points) set_point(row);
     if (geometry_ == LayerGeometry::polygons) feature.SetGeometryDirectly(multipolygon_of(row.polygons).release());
     if (geometry_ == LayerGeometry::areas) feature.SetGeometryDirectly(area_of(row.polygons.front()).release());
     if (layer_->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
@@ -194,9 +186,20 @@ class GdalFeatureWriter final : public FeatureWriter {
   // Nobody reads the file before it is complete: no step needs to reach the disk before the next
   CPLConfigOptionSetter synchronous_{"OGR_SQLITE_SYNCHRONOUS", "OFF", true};
   GDALDatasetUniquePtr dataset_;
+  void set_point(const FeatureRow& row) {
+    if (std::isnan(row.p_projected.x)) {
+      feature_->SetGeometryDirectly(nullptr);
+      return;
+    }
+    if (feature_->GetGeometryRef() == nullptr) feature_->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
+    OGRPoint& point = *feature_->GetGeometryRef()->toPoint();
+    point.setX(millimetres(row.p_projected.x));
+    point.setY(millimetres(row.p_projected.y));
+    point.setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
+  }
+
   OGRLayer* layer_ = nullptr;
   Feature feature_;  // one for all rows: making a new one takes a third of the time of writing it
-  OGRPoint* point_ = nullptr;
   LayerGeometry geometry_ = LayerGeometry::points;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -66,6 +67,7 @@ class GeojsonWriter final : public FeatureWriter {
   void add_place(Point2d p, std::optional<double> height_m);
   [[nodiscard]] std::size_t add_ring(const std::vector<Point3d>& corners);
   void append_place(std::string& json, std::size_t place) const;
+  void append_point(std::string& json, std::size_t place) const;
   void append_ring(std::string& json, std::size_t first, std::size_t corners) const;
   /// `place` is the first one, and is moved behind the last one; so in the next function.
   void append_rings(std::string& json, const std::vector<std::size_t>& corners_of_rings, std::size_t& place) const;
@@ -162,11 +164,19 @@ void GeojsonWriter::append_rings(std::string& json, const std::vector<std::size_
   json += "]";
 }
 
+void GeojsonWriter::append_point(std::string& json, std::size_t place) const {
+  if (std::isnan(places_[place].x)) {
+    json += "null";
+    return;
+  }
+  json += R"({"type": "Point", "coordinates": )";
+  append_place(json, place);
+  json += "}";
+}
+
 void GeojsonWriter::append_geometry(std::string& json, const Waiting& feature, std::size_t& place) const {
   if (geometry_ == LayerGeometry::points) {
-    json += R"({"type": "Point", "coordinates": )";
-    append_place(json, place++);
-    json += "}";
+    append_point(json, place++);
     return;
   }
   if (feature.polygons.empty()) {
@@ -183,7 +193,10 @@ void GeojsonWriter::append_geometry(std::string& json, const Waiting& feature, s
 }
 
 void GeojsonWriter::write_waiting() {
-  if (to_wgs84_ && to_wgs84_->apply(places_))
+  // Somebody's points may lie anywhere, and have no answers there
+  if (to_wgs84_ && geometry_ == LayerGeometry::points)
+    to_wgs84_->apply_each(places_);
+  else if (to_wgs84_ && to_wgs84_->apply(places_))
     throw OutputError(file_.destination(), "a point lies where the CRS of the package has no longitude and latitude");
   std::string json;
   std::size_t place = 0;

@@ -118,7 +118,8 @@ void write_points_as_features(const PointRows& rows, const TableFrame& frame, Fe
     feature.values = {std::string_view(row.id)};
     for (std::size_t k = 0; k < attributes; ++k)
       feature.values.push_back(attribute_value(rows.attributes->value(n, k), layer.fields[k + 1].type));
-    feature.values.insert(feature.values.end(), {millimetres(row.p_projected.x), millimetres(row.p_projected.y),
+    feature.values.insert(feature.values.end(), {row.has_place() ? millimetres(row.p_projected.x) : FieldValue(),
+                                                 row.has_place() ? millimetres(row.p_projected.y) : FieldValue(),
                                                  millimetres(row.height_m), millimetres(row.above_ground_m)});
     if (rows.normals) feature.values.insert(feature.values.end(), {millimetres(row.azimuth_deg), millimetres(row.tilt_deg)});
     add_answers(row, frame.columns, feature);

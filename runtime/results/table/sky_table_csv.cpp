@@ -49,7 +49,9 @@ void add_answer(const Row& row, const AnswerColumns& columns, CsvText& text) {
 }
 
 void add_point(const PointRow& r, CsvText& text) {
-  text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m).millimetres(r.above_ground_m);
+  const auto where_placed = [&r](double value) { return r.has_place() ? std::optional(value) : std::nullopt; };
+  text.millimetres(where_placed(r.p_projected.x)).millimetres(where_placed(r.p_projected.y));
+  text.millimetres(r.height_m).millimetres(r.above_ground_m);
 }
 
 CsvText point_header(const PointRows& rows, const AnswerColumns& columns) {

@@ -75,16 +75,18 @@ class Vertices {
   std::string bytes_;
 };
 
+bool has_vertex(const PointRow& row) { return row.has_place() && row.height_m; }
+
 }  // namespace
 
 void write_points_ply(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) {
   std::size_t count = 0;
-  for (std::size_t n = 0; n < rows.count; ++n) count += rows.row(n).height_m ? 1 : 0;
+  for (std::size_t n = 0; n < rows.count; ++n) count += has_vertex(rows.row(n)) ? 1 : 0;
   write_atomically(path, [&](std::ostream& out) {
     Vertices vertices(out, count, frame);
     for (std::size_t n = 0; n < rows.count; ++n) {
       const PointRow row = rows.row(n);
-      if (!row.height_m) continue;
+      if (!has_vertex(row)) continue;
       vertices.add({row.p_projected.x, row.p_projected.y, *row.height_m}, Angle::degrees(row.azimuth_deg.value_or(0.0)),
                    Angle::degrees(row.tilt_deg.value_or(0.0)), row);
     }

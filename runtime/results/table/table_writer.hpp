@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -21,10 +22,10 @@
 
 namespace farlod {
 
-/// A receiver that the user named, with its answer; no answer when it lies inside a building.
+/// A receiver that the user named, with its answer; no answer when it lies inside a building, or far from the city.
 struct PointRow {
   std::string id;
-  Point2d p_projected;             ///< easting and northing
+  Point2d p_projected;             ///< easting and northing; NaN of a row that cannot be read
   std::optional<double> height_m;  ///< where it stands; unknown inside a building
   std::optional<double> svf;
   std::optional<double> low, high;  ///< certain bounds, where asked for
@@ -32,6 +33,8 @@ struct PointRow {
   std::optional<double> azimuth_deg = {}, tilt_deg = {};
   std::span<const float> further = {};        ///< as many as AnswerColumns::further; NaN where there is no answer
   std::optional<double> above_ground_m = {};  ///< unknown also where there is no ground
+
+  [[nodiscard]] bool has_place() const { return !std::isnan(p_projected.x); }
 };
 
 /// Whether tables of receivers have columns for the bounds.

@@ -132,19 +132,51 @@ TEST(PointReader, ABadNumberIsNamedWithItsLine) {
   EXPECT_THAT(complaint_about("x;y\n1,5;2\n"), HasSubstr("write it like 1234.5"));
 }
 
-TEST(PointReader, ARowOfManyThatCannotBeReadIsLeftOutAndTold) {
+TEST(PointReader, ARowOfManyThatCannotBeReadKeepsItsPlaceInTheTableAndIsTold) {
   std::string stations = "x,y,street\n";
   for (int n = 1; n <= 20; ++n) stations += (n == 7 ? "unknown" : std::to_string(n)) + ",5,s" + std::to_string(n) + "\n";
   const RequestedPoints read = table_of(stations);
-  ASSERT_EQ(read.points.size(), 19U);
+  ASSERT_EQ(read.points.size(), 20U);
+  EXPECT_FALSE(read.points[6].has_place());
+  EXPECT_EQ(read.points[6].id, "7");
+  EXPECT_THAT(row_of(read.attributes, 6), ElementsAre("s7"));
   EXPECT_EQ(read.skipped_features, 1U);
-  EXPECT_THAT(read.notes, ElementsAre(AllOf(HasSubstr("points.csv:8"), HasSubstr("\"unknown\""), HasSubstr("of 20 rows"))));
-  EXPECT_EQ(read.points[6].id, "8") << "rows keep their numbers";
-  EXPECT_THAT(row_of(read.attributes, 6), ElementsAre("s8"));
+  EXPECT_THAT(read.notes, ElementsAre(AllOf(HasSubstr("points.csv:8"), HasSubstr("\"unknown\""), HasSubstr("1 of 20 rows cannot be read and has"))));
+  EXPECT_EQ(read.points[7].id, "8");
+  EXPECT_THAT(row_of(read.attributes, 7), ElementsAre("s8"));
   EXPECT_THAT(table_of(stations + "u,5,\nv,5,\n" + stations.substr(stations.find('\n') + 1)).notes,
-              ElementsAre(HasSubstr("cannot be read: 4 (lines 8, 22, 23, 30).")));
+              ElementsAre(HasSubstr("4 of 42 rows cannot be read and have no answer (lines 8, 22, 23, 30).")));
   // One row in five is no accident
   EXPECT_THAT(complaint_about("x,y\n1,1\n2,2\nunknown,3\n4,4\n5,5\n"), HasSubstr("points.csv:4"));
+}
+
+TEST(PointReader, HeightsAboveTheGroundHaveAColumnOfTheirOwn) {
+  for (const char* name : {"height_above_ground_m", "Height_Above_Ground"}) {
+    const RequestedPoints table = table_of(std::string("x,y,") + name + "\n1,2,3.5\n4,5,\n");
+    EXPECT_EQ(table.points[0].above_ground_m, 3.5);
+    EXPECT_FALSE(table.points[0].z);
+    EXPECT_FALSE(table.points[1].above_ground_m);
+    EXPECT_THAT(table.attributes.names(), IsEmpty());
+  }
+  EXPECT_THAT(complaint_about("x,y,height_above_ground\n1,2,-3\n"), HasSubstr("is not between 0 and 10,000 m"));
+  // Answers that are read again say both
+  const RequestedPoints both = table_of("x,y,z_m,height_above_ground_m\n1,2,30,3.5\n");
+  EXPECT_EQ(both.points[0].z, 30.0);
+  EXPECT_FALSE(both.points[0].above_ground_m);
+  EXPECT_THAT(both.attributes.names(), ElementsAre("height_above_ground_m"));
+}
+
+TEST(PointReader, HeightsThatMayCountFromElsewhereAreTold) {
+  EXPECT_EQ(table_of("x,y,Height_M\n1,2,3\n").doubtful_z, "Height_M");
+  EXPECT_EQ(table_of("x,y,z\n1,2,3\n").doubtful_z, "");
+  EXPECT_THAT(table_of("x,y,height\n1,2,3\n").notes,
+              ElementsAre(AllOf(HasSubstr("\"height\" places no point"), HasSubstr("height_above_ground_m"))));
+  EXPECT_THAT(table_of("x,y,z,height\n1,2,3,4\n").notes, IsEmpty());
+}
+
+TEST(PointReader, ColumnsOfDegreesMayHoldRowsInWhichTheyAreExchanged) {
+  EXPECT_EQ(table_of("lon,lat\n139.6,35.9\n35.9,139.6\n139.6,35.9\n").crs_wkt, "OGC:CRS84");
+  EXPECT_EQ(table_of("lon,lat\n500000,5500000\n9,49\n").crs_wkt, std::nullopt);
 }
 
 TEST(PointReader, AShortRowIsNamed) {

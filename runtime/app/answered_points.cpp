@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/answered_points.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "app/written_run.hpp"
+#include "farlod/box.hpp"
+#include "farlod/error.hpp"
+
+namespace farlod {
+namespace {
+
+bool is_in_reach(const NamedPoints& named, std::size_t n, const PackageDescription& city) {
+  return grown(city.outline_projected, answered_beyond_grid_m).contains({named.x_m[n], named.y_m[n]});
+}
+
+/// The rows of points that are evaluated.
+std::vector<std::size_t> rows_in_reach(const NamedPoints& named, const PackageDescription& city) {
+  std::vector<std::size_t> rows;
+  for (std::size_t n = 0; n < named.ids.size(); ++n)
+    if (is_in_reach(named, n, city)) rows.push_back(n);
+  return rows;
+}
+
+/// The rows of points that have a place, and no answer there.
+std::vector<std::size_t> rows_beyond(const NamedPoints& named, const PackageDescription& city) {
+  std::vector<std::size_t> rows;
+  for (std::size_t n = 0; n < named.ids.size(); ++n)
+    if (named.has_place(n) && !is_in_reach(named, n, city)) rows.push_back(n);
+  return rows;
+}
+
+/// Some elements of an array that has one for each point, or none.
+template <class Value>
+std::vector<Value> chosen_of(const std::vector<Value>& values, std::span<const std::size_t> rows) {
+  std::vector<Value> chosen;
+  if (values.empty()) return chosen;
+  for (const std::size_t n : rows) chosen.push_back(values[n]);
+  return chosen;
+}
+
+/// The points of some rows, as the library takes them.
+struct ChosenPoints {
+  ChosenPoints(const NamedPoints& named, std::span<const std::size_t> rows)
+      : x_m(chosen_of(named.x_m, rows)),
+        y_m(chosen_of(named.y_m, rows)),
+        z_m(chosen_of(named.z_m, rows)),
+        above_ground_m(chosen_of(named.above_ground_m, rows)),
+        azimuth(chosen_of(named.azimuth, rows)),
+        tilt(chosen_of(named.tilt, rows)) {}
+  [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt, above_ground_m}; }
+
+  std::vector<double> x_m, y_m, z_m, above_ground_m;
+  std::vector<Angle> azimuth, tilt;
+};
+
+/// Values of some rows as values of all: others are NaN.
+template <class Value>
+void spread_over(std::size_t count, std::span<const std::size_t> rows, std::vector<Value>& values) {
+  if (rows.empty() || values.empty()) return;
+  const std::size_t columns = values.size() / rows.size();
+  std::vector<Value> spread(count * columns, std::numeric_limits<Value>::quiet_NaN());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t c = 0; c < columns; ++c) spread[rows[k] * columns + c] = values[k * columns + c];
+  values = std::move(spread);
+}
+
+PointAnswers answers_of_points(const Package& package, const Points& points, std::span<const std::size_t> rows,
+                               const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {
+  try {
+    return evaluate_points(package, points, options.placing, options.evaluation, run);
+  } catch (const InvalidPoint& error) {
+    throw PointsError("point " + named.ids[rows[error.index()]] +
+                      " lies nowhere on Earth: check its coordinates, and its CRS (--points-crs)");
+  }
+}
+
+/// As the user gave it; where that was in another CRS, in that of the package, too.
+std::string asked_place(const NamedPoints& named, std::size_t n, const SvfOptions& options) {
+  const std::string projected = fmt::format("{:.10g}, {:.10g}", named.x_m[n], named.y_m[n]);
+  if (options.source != ReceiverSource::at) return fmt::format("point {} at {}", named.ids[n], projected);
+  const std::string given = fmt::format("{:.10g}, {:.10g}", options.at.x, options.at.y);
+  return given == projected ? given : fmt::format("{} (longitude and latitude of {})", given, projected);
+}
+
+}  // namespace
+
+void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, const PackageDescription& city) {
+  const std::vector<std::size_t> beyond = rows_beyond(named, city);
+  if (beyond.empty() || !rows_in_reach(named, city).empty()) return;
+  const Box2d& box = city.outline_projected;
+  throw NoAnswer(fmt::format(
+      "No receiver has an answer, and nothing was written: {} lies more than {:g} m beyond the grid of the city{}. The grid lies "
+      "from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.",
+      asked_place(named, beyond.front(), options), answered_beyond_grid_m,
+      beyond.size() > 1 ? fmt::format(", as all {} points do", beyond.size()) : "", box.low.x, box.low.y, box.high.x, box.high.y,
+      city.crs_name, option_of_place(options)));
+}
+
+std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const PackageDescription& city) {
+  const std::vector<std::size_t> beyond = rows_beyond(named, city);
+  if (beyond.empty()) return std::nullopt;
+  const std::size_t first = beyond.front();
+  return fmt::format(
+      "{} of {} points {} more than {:g} m beyond the grid of the city and {} no answer; "
+      "the first is point {} at {:.10g}, {:.10g}.",
+      beyond.size(), named.ids.size(), beyond.size() == 1 ? "lies" : "lie", answered_beyond_grid_m,
+      beyond.size() == 1 ? "has" : "have", named.ids[first], named.x_m[first], named.y_m[first]);
+}
+
+std::optional<std::string> note_of_heights(const NamedPoints& named, const PointAnswers& answers,
+                                           const PackageDescription& city) {
+  if (named.doubtful_z.empty()) return std::nullopt;
+  std::size_t with_height = 0, without_answer = 0;
+  for (const std::size_t n : rows_in_reach(named, city)) {
+    if (std::isnan(named.z_m[n])) continue;
+    ++with_height;
+    without_answer += std::isnan(answers.svf[n]) ? 1 : 0;
+  }
+  const std::string below = without_answer == 0 ? ""
+                                                : fmt::format(", where {} of {} points lie below the ground or inside buildings",
+                                                              without_answer, with_height);
+  return fmt::format(
+      "\"{}\" was taken for an elevation above sea level{}: for heights above ground name it height_above_ground_m.",
+      named.doubtful_z, below);
+}
+
+PointAnswers evaluate_named(const Package& package, const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {
+  const std::vector<std::size_t> rows = rows_in_reach(named, package.description());
+  const std::size_t count = named.ids.size();
+  if (rows.size() == count) return answers_of_points(package, named.points(), rows, named, options, run);
+  const ChosenPoints chosen(named, rows);
+  PointAnswers answers = answers_of_points(package, chosen.points(), rows, named, options, run);
+  for (std::vector<float>* values : {&answers.svf, &answers.low, &answers.high, &answers.further})
+    spread_over(count, rows, *values);
+  for (std::vector<double>* values : {&answers.height_m, &answers.above_ground_m}) spread_over(count, rows, *values);
+  if (!answers.summary.estimate) answers.summary.beyond_grid += rows_beyond(named, package.description()).size();
+  return answers;
+}
+
+}  // namespace farlod

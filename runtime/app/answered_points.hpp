@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/named_points.hpp"
+#include "app/svf_options.hpp"
+#include "farlod/package.hpp"
+#include "farlod/points.hpp"
+#include "farlod/run.hpp"
+
+namespace farlod {
+
+/// Throws NoAnswer where no point lies within answered_beyond_grid_m of the grid: says where the first is, and where the city is.
+void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, const PackageDescription& city);
+
+/// What to tell of points that lie farther away, beside others: how many, and which is the first.
+[[nodiscard]] std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const PackageDescription& city);
+
+/// What to tell of heights whose column may also mean heights above the ground.
+[[nodiscard]] std::optional<std::string> note_of_heights(const NamedPoints& named, const PointAnswers& answers,
+                                                         const PackageDescription& city);
+
+/// Evaluates the points that have a place in reach; the others have no answer. Throws PointsError for a point that is none, since
+/// it is of an input, and what the library throws.
+[[nodiscard]] PointAnswers evaluate_named(const Package& package, const NamedPoints& named, const SvfOptions& options,
+                                          const RunSettings& run);
+
+}  // namespace farlod
