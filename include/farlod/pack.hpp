@@ -235,7 +235,7 @@ struct PackResult {
   double alignment_strength = 0.0;   ///< 0: no direction is preferred; 1: all walls are parallel or perpendicular
   std::optional<ChosenGrid> chosen;  ///< with PackSettings::max_error
   std::uint64_t facets = 0;          ///< polygons as the files have them: a surface of a mesh is made of several triangles
-  std::uint64_t foundations = 0;     ///< buildings whose lowest floor was closed down to the ground
+  std::uint64_t foundations = 0;     ///< buildings of which a low floor was closed down to the ground
   CrownCounts crowns;
   SkippedFeatures skipped;         ///< features of the files that are not used
   std::vector<std::string> notes;  ///< for the user: what was read from files beside the inputs, or assumed

@@ -294,7 +294,7 @@ class Packing {
     result.foundations = tiles.foundation_count;
     if (tiles.foundation_count > 0)
       result.notes.push_back(
-          "Closed down to the ground, since the lowest floor is above it somewhere: " + std::to_string(tiles.foundation_count) +
+          "Closed down to the ground, since a low floor is above it somewhere: " + std::to_string(tiles.foundation_count) +
           " of " + std::to_string(tiles.building_ids.size()) + " buildings.");
     std::map<int, std::uint64_t> counts;
     for (const Problem& p : report_.since(first_problem_)) ++counts[static_cast<int>(p.code)];

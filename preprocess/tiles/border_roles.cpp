@@ -258,7 +258,7 @@ bool lies_below(const SortedSegments& borders, const CityModel& city, const Face
 BordersWithRoles borders_with_roles(BuildingPieces& building, const std::vector<HorizonSegment>& undersides,
                                     const GroundHeightAt& ground_height) {
   const GroundedWalls walls(*std::exchange(building.walls, std::nullopt), ground_height);
-  for (Slab& slab : building.slabs) slab.on_ground = stands_on_ground(slab, ground_height);
+  for (Slab& slab : building.slabs) slab.on_ground = slab.on_ground || stands_on_ground(slab, ground_height);
   BorderRoles roles(building, walls);
   BordersWithRoles result;
   for (const HorizonSegment& border : building.upper_borders)

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/city_model.hpp"
 #include "tiles/building_pieces.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/horizon_edges.hpp"
 
@@ -41,6 +44,17 @@ struct NumbersOfWalls {
 };
 [[nodiscard]] NumbersOfWalls walls_of(const CityModel& city_grid, const Building& building,
                                       const std::vector<UpperBorder>& borders);
+
+/// A building with lower borders that none of its own facets closes.
+struct OverhangingBuilding {
+  std::vector<UpperBorder> upper_borders;
+  std::vector<CellEdge> undersides, corners;
+  std::vector<ClosingTriangle> closing;  ///< cracks where it touches others
+  std::optional<std::uint32_t> closing_surface;
+  std::optional<Cell> only_cell;
+  std::uint32_t first_surface = 0, end_surface = 0;  ///< in TileSet::surfaces
+  NumbersOfWalls walls;
+};
 
 /// All surfaces of a building that overhangs do, but for these walls. Roofs that hide nothing either may be overhead.
 void tell_what_overhangs(std::span<Surface> surfaces, const std::vector<std::uint32_t>& walls);

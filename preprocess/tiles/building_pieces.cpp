@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "city/geometry.hpp"
-#include "tiles/building_bases.hpp"
 #include "tiles/facet_repair.hpp"
 #include "tiles/facet_triangulation.hpp"
+#include "tiles/foundations.hpp"
 #include "tiles/solid_to_ground.hpp"
 
 namespace farlod::tiles {
@@ -234,6 +234,12 @@ class BuildingCutter {
 };
 
 }  // namespace
+
+std::uint16_t last_part(const BuildingPieces& pieces) {
+  std::uint16_t last = 0;
+  for (const BuildingSurface& s : pieces.surfaces) last = std::max(last, s.surface.part);
+  return last;
+}
 
 BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign,
                             double height_origin_m) {

@@ -64,6 +64,9 @@ struct BuildingPieces {
   std::vector<Problem> problems;         ///< without the source, which a building alone does not know; grid frame
 };
 
+/// The largest number of a part of the building.
+[[nodiscard]] std::uint16_t last_part(const BuildingPieces& pieces);
+
 /// Triangulates and cuts one building, given in the grid frame.
 [[nodiscard]] BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign,
                                           double height_origin_m);

@@ -44,6 +44,8 @@ struct CellPiece {
   CellPolygon polygon;
 };
 
+[[nodiscard]] double area_of(const CellPolygon& convex);
+
 /// A point of the grid frame in the frame of `cell`: the one way in which a vertex is rounded.
 [[nodiscard]] Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, double height_origin_m);
 

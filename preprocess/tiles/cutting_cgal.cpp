@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "city/geometry.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/exact_cutting_cgal.hpp"
 
@@ -258,6 +259,12 @@ std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle, const 
   std::vector<CellPiece> pieces;
   cut(triangle, grid, height_origin_m, grid.cells, pieces);
   return pieces;
+}
+
+double area_of(const CellPolygon& convex) {
+  double area_m2 = 0.0;
+  for (std::size_t n = 2; n < convex.size(); ++n) area_m2 += 0.5 * norm(cross(convex[n - 1] - convex[0], convex[n] - convex[0]));
+  return area_m2;
 }
 
 }  // namespace farlod::tiles

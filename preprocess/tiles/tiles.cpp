@@ -18,19 +18,13 @@
 #include "tiles/building_bases.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/contacts.hpp"
+#include "tiles/foundations.hpp"
 #include "tiles/rim.hpp"
 #include "tiles/tile_filler.hpp"
 #include "tiles/undersides.hpp"
 
 namespace farlod::tiles {
 namespace {
-
-double area_of(std::span<const Point3f> convex_polygon) {
-  double area_m2 = 0.0;
-  for (std::size_t n = 2; n < convex_polygon.size(); ++n)
-    area_m2 += 0.5 * norm(cross(convex_polygon[n - 1] - convex_polygon[0], convex_polygon[n] - convex_polygon[0]));
-  return area_m2;
-}
 
 class TileCutter {
  public:
@@ -74,17 +68,6 @@ class TileCutter {
   }
 
  private:
-  /// A building with lower borders that none of its own facets closes.
-  struct OverhangingBuilding {
-    std::vector<UpperBorder> upper_borders;
-    std::vector<CellEdge> undersides, corners;
-    std::vector<ClosingTriangle> closing;  ///< cracks where it touches others
-    std::optional<std::uint32_t> closing_surface;
-    std::optional<Cell> only_cell;
-    std::uint32_t first_surface = 0, end_surface = 0;  ///< in TileSet::surfaces
-    NumbersOfWalls walls;
-  };
-
   [[nodiscard]] double lowest_whole_metre() const {
     double lowest = ground_->lowest_m().value_or(std::numeric_limits<double>::infinity());
     city_.for_each_building([&](std::size_t, const Building& b) {
@@ -198,10 +181,7 @@ class TileCutter {
     std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides, *ground_);
     double foundation_top_m = -std::numeric_limits<double>::infinity();
     if (!undersides.empty() && (bases_[number] != Base::above_ground || building.foot == Foot::on_ground))
-      if (const auto foundation = take_foundation(city_.points_of(building), building.foot, undersides, ground_height())) {
-        place_foundation(building, cut_building, *foundation, report);
-        foundation_top_m = foundation->top_m;
-      }
+      foundation_top_m = close_below(building, cut_building, undersides, report);
     std::optional<std::uint32_t> closing_surface;
     place_closing(cut_building.closing, first_surface, cut_building.only_cell, closing_surface);
     if (undersides.empty()) {
@@ -235,8 +215,7 @@ class TileCutter {
       for (const CellPiece& piece : cut_unless_whole(triangle, only_cell, grid_, tiles_.height_origin_m)) {
         if (!grid_.cells.contains(piece.cell)) continue;
         if (!number) number = add_closing_surface(surface);
-        place(piece, *number);
-        tiles_.surfaces[*number].area_m2 += area_of(piece.polygon);
+        place_as(*number, piece);
       }
     }
   }
@@ -257,45 +236,64 @@ class TileCutter {
     return pieces;
   }
 
-  /// Places the walls and the lid of a foundation as one more surface of the building that was placed last.
-  void place_foundation(const Building& building, const BuildingPieces& pieces, const Foundation& foundation, Report& report) {
-    if (foundation.gap_m > storey_m) report_gap(building, foundation, report);
-    const Surface& last = tiles_.surfaces.back();
+  /// Closes the space below low floors of the building that was placed last. Below the result it counts as closed everywhere.
+  double close_below(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides, Report& report) {
+    const auto foundation = take_foundation(city_.points_of(building), building.foot, undersides, ground_height());
+    if (foundation) place_foundation(building, pieces, *foundation, report);
+    bool is_closed = foundation.has_value();
+    for (const LowFloor& low : take_low_floors(pieces.slabs, undersides, ground_height())) {
+      is_closed = is_closed || !low.walls.empty();
+      low.walls.empty() ? report_gap(building, gap_left_open(low), low.place, report) : place_low_floor(low, pieces);
+    }
+    tiles_.foundation_count += is_closed ? 1 : 0;
+    return foundation ? foundation->top_m : -std::numeric_limits<double>::infinity();
+  }
+
+  /// Adds what closes the space below a floor as one more surface of the building that was placed last. It looks up, as the lid
+  /// of a foundation does, so that the space below the floor counts as inside.
+  std::uint32_t add_foundation_surface(const BuildingPieces& pieces) {
+    const Surface last = tiles_.surfaces.back();
     const auto part = static_cast<std::uint16_t>(last_part(pieces) + 1);
-    const Surface surface{last.building, last.number + 1, part, SurfaceKind::foundation, {0.0, 0.0, 1.0}, 0.0};
-    const auto number = static_cast<std::uint32_t>(tiles_.surfaces.size());
-    tiles_.surfaces.push_back(surface);
-    const auto place_piece = [&](const CellPiece& piece) {
-      place(piece, number);
-      tiles_.surfaces[number].area_m2 += area_of(piece.polygon);
-    };
-    // The ends of a border were computed, and may lie beyond the grid by their rounding
-    for (const auto& triangle : foundation.walls)
-      for (const CellPiece& piece : cut_unless_whole(triangle, pieces.only_cell, grid_, tiles_.height_origin_m))
-        if (grid_.cells.contains(piece.cell)) place_piece(piece);
-    // The floor is the lid of the foundation too, so that the space below the floor counts as inside
+    tiles_.surfaces.push_back({last.building, last.number + 1, part, SurfaceKind::foundation, {0.0, 0.0, 1.0}, 0.0});
+    return static_cast<std::uint32_t>(tiles_.surfaces.size() - 1);
+  }
+
+  void place_as(std::uint32_t surface, const CellPiece& piece) {
+    place(piece, surface);
+    tiles_.surfaces[surface].area_m2 += area_of(piece.polygon);
+  }
+
+  /// The ends of a border were computed, and may lie beyond the grid by their rounding.
+  void place_within_grid(std::span<const std::array<Point3d, 3>> triangles, std::uint32_t surface,
+                         const std::optional<Cell>& only_cell) {
+    for (const auto& triangle : triangles)
+      for (const CellPiece& piece : cut_unless_whole(triangle, only_cell, grid_, tiles_.height_origin_m))
+        if (grid_.cells.contains(piece.cell)) place_as(surface, piece);
+  }
+
+  void place_foundation(const Building& building, const BuildingPieces& pieces, const Foundation& foundation, Report& report) {
+    if (foundation.gap_m > storey_m) report_gap(building, gap_closed(foundation), foundation.place, report);
+    const std::uint32_t number = add_foundation_surface(pieces);
+    place_within_grid(foundation.walls, number, pieces.only_cell);
     const auto low = static_cast<float>(foundation.top_m - tiles_.height_origin_m);
     for (const SurfacePiece& p : pieces.pieces)
       if (pieces.surfaces[p.surface].surface.kind == SurfaceKind::floor &&
           std::all_of(p.piece.polygon.begin(), p.piece.polygon.end(), [low](const Point3f& v) { return v.z <= low; }))
-        place_piece(p.piece);
-    ++tiles_.foundation_count;
+        place_as(number, p.piece);
   }
 
-  void report_gap(const Building& building, const Foundation& foundation, Report& report) const {
-    Problem problem{ProblemCode::floor_in_the_air,
-                    {},
-                    building.id,
-                    "the lowest floor is up to " + metres(foundation.gap_m) + " above the ground: closed down to it"};
+  void place_low_floor(const LowFloor& low, BuildingPieces& pieces) {
+    const std::uint32_t number = add_foundation_surface(pieces);
+    place_within_grid(low.walls, number, pieces.only_cell);
+    place_within_grid(low.lid, number, pieces.only_cell);
+    if (pieces.walls) add_wall_profiles(low, *pieces.walls);
+  }
+
+  void report_gap(const Building& building, std::string detail, const Point3d& place, Report& report) const {
+    Problem problem{ProblemCode::floor_in_the_air, {}, building.id, std::move(detail)};
     if (building.source < sources_.size()) problem.source = sources_[building.source];
-    problem.position = p_projected(foundation.place);
+    problem.position = p_projected(place);
     report.add(std::move(problem));
-  }
-
-  static std::uint16_t last_part(const BuildingPieces& pieces) {
-    std::uint16_t last = 0;
-    for (const BuildingSurface& s : pieces.surfaces) last = std::max(last, s.surface.part);
-    return last;
   }
 
   [[nodiscard]] GroundHeightAt ground_height() const {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/building_bases.hpp"
+#include "tiles/foundations.hpp"
 
 #include <gmock/gmock.h>
 
