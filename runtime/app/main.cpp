@@ -250,6 +250,21 @@ void add_light(const std::optional<PeriodLight>& light, WrittenRun& written) {
   written.notes.insert(written.notes.begin(), notes.begin(), notes.end());
 }
 
+/// Adds what depends on the package: what SOLWEIG reads of trees, and svf_total where nobody said what to compute, there is room
+/// for it, and no error is to be kept, which takes rays for crowns.
+void add_quantities_for(bool has_trees, SvfOptions& o) {
+  if (o.format == nullptr) return;
+  Quantities& further = o.evaluation.further;
+  add_for_solweig(*o.format, has_trees, further);
+  const bool has_room = o.format->holds_bounds || (o.format->is_picture && o.source == ReceiverSource::grid);
+  const bool is_sky = o.source == ReceiverSource::at && o.format->is_picture;
+  if (!has_trees || !(has_room || is_sky)) return;
+  further.sunlit_total = further.sunlit_total || o.sunshine.has_value();
+  if ((o.names_quantities && !is_sky) || o.evaluation.max_error || o.evaluation.weight != SkyWeight::cosine) return;
+  further.svf_total = true;
+  further.svf_total_bounds = o.evaluation.bounds;
+}
+
 WrittenRun evaluate(SvfOptions options) {
   const auto start = Clock::now();
   const Package package(options.package);

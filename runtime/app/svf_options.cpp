@@ -388,19 +388,6 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   return {std::move(line.options), exit_done};
 }
 
-void add_quantities_for(bool has_trees, SvfOptions& o) {
-  if (o.format == nullptr) return;
-  Quantities& further = o.evaluation.further;
-  add_for_solweig(*o.format, has_trees, further);
-  const bool has_room = o.format->holds_bounds || (o.format->is_picture && o.source == ReceiverSource::grid);
-  const bool is_sky = o.source == ReceiverSource::at && o.format->is_picture;
-  if (!has_trees || !(has_room || is_sky)) return;
-  further.sunlit_total = further.sunlit_total || o.sunshine.has_value();
-  if ((o.names_quantities && !is_sky) || o.evaluation.max_error || o.evaluation.weight != SkyWeight::cosine) return;
-  further.svf_total = true;
-  further.svf_total_bounds = o.evaluation.bounds;
-}
-
 void describe_svf_options(const CommandLineVisitor& visit) { visit(svf_program(), CommandLine().app); }
 
 }  // namespace farlod

@@ -73,10 +73,6 @@ struct ParsedSvfOptions {
 };
 [[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
 
-/// Adds what depends on the package: what SOLWEIG reads of trees, and svf_total where nobody said what to compute, there is room
-/// for it, and no error is to be kept, which takes rays for crowns.
-void add_quantities_for(bool has_trees, SvfOptions& options);
-
 /// Hands over the command line, from which the completions are made.
 void describe_svf_options(const CommandLineVisitor& visit);
 
