@@ -77,7 +77,8 @@ struct Eyes {
   Floats x, y, z, cosine, sine;
 };
 
-/// The slopes that a facet hides, or low = infinite.
+/// The slopes that a facet hides, or low = infinite; `high` is no number then where an azimuth runs along a facet. So it is the
+/// first operand of max, which gives the second one for it: nothing else may come before an end that is infinite already.
 struct HiddenSlopes {
   Floats low, high;
 };
@@ -160,7 +161,7 @@ struct NarrowingGaps {
   }
   FARLOD_LANES void hide(const HiddenSlopes& hidden) {
     if (bits_of(reached_by(hidden)) == 0) return;
-    from = choose(hidden.low <= joined(from), max(from, hidden.high), from);
+    from = choose(hidden.low <= joined(from), max(hidden.high, from), from);
     to = choose(hidden.high >= to, min(to, hidden.low), to);
     if (bits_of(reached_by(hidden)) == 0) return;
     store(hidden.low, room + 2 * count * lane_count);
@@ -175,7 +176,7 @@ struct NarrowingGaps {
     for (;;) {
       const Floats reached = joined(t);
       Floats end = t;
-      for (std::size_t n = 0; n < count; ++n) end = max(end, choose(low(n) <= reached, high(n), t));
+      for (std::size_t n = 0; n < count; ++n) end = max(choose(low(n) <= reached, high(n), t), end);
       if (bits_of(end > t) == 0) return t;
       t = end;
     }
