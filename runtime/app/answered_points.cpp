@@ -74,13 +74,22 @@ void spread_over(std::size_t count, std::span<const std::size_t> rows, std::vect
   values = std::move(spread);
 }
 
+PointsError nowhere_on_earth(const NamedPoints& named, std::size_t n) {
+  return PointsError("point " + named.ids[n] + " lies nowhere on Earth: check its coordinates, and its CRS (--points-crs)");
+}
+
+/// As Points has it.
+bool lies_on_earth(const NamedPoints& named, std::size_t n) {
+  constexpr double farthest_m = 1e8;
+  return std::abs(named.x_m[n]) <= farthest_m && std::abs(named.y_m[n]) <= farthest_m;
+}
+
 PointAnswers answers_of_points(const Package& package, const Points& points, std::span<const std::size_t> rows,
                                const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {
   try {
     return evaluate_points(package, points, options.placing, options.evaluation, run);
   } catch (const InvalidPoint& error) {
-    throw PointsError("point " + named.ids[rows[error.index()]] +
-                      " lies nowhere on Earth: check its coordinates, and its CRS (--points-crs)");
+    throw nowhere_on_earth(named, rows[error.index()]);
   }
 }
 
@@ -97,6 +106,7 @@ std::string asked_place(const NamedPoints& named, std::size_t n, const SvfOption
 void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, const PackageDescription& city) {
   const std::vector<std::size_t> beyond = rows_beyond(named, city);
   if (beyond.empty() || !rows_in_reach(named, city).empty()) return;
+  if (!lies_on_earth(named, beyond.front())) throw nowhere_on_earth(named, beyond.front());
   const Box2d& box = city.outline_projected;
   throw NoAnswer(fmt::format(
       "No receiver has an answer, and nothing was written: {} lies more than {:g} m beyond the grid of the city{}. The grid lies "

@@ -14,6 +14,7 @@
 namespace farlod {
 
 /// Throws NoAnswer where no point lies within answered_beyond_grid_m of the grid: says where the first is, and where the city is.
+/// Throws PointsError where the first lies nowhere on Earth.
 void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, const PackageDescription& city);
 
 /// What to tell of points that lie farther away, beside others: how many, and which is the first.
