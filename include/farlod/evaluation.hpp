@@ -180,7 +180,7 @@ struct EvaluationSummary {
   std::uint64_t by_rays = 0;        ///< receivers that rays answered, or for which bounds needed the whole city
   std::uint64_t retraced_rays = 0;  ///< rays and parts of the sky (wedges) that the whole city decided (max_error)
   std::optional<ErrorSummary> errors;
-  /// Of each further column, in the order of columns_of(), where a receiver has a value.
+  /// Ranges of the further columns, in the order of columns_of(), where a receiver has a value.
   std::vector<std::optional<ValueRange>> further;
   /// Where these are computed: Quantities::svf_total, its bounds, and the errors of EvaluationSettings::verify.
   std::optional<ValueRange> svf_total;

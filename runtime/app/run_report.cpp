@@ -34,7 +34,7 @@ void print_values(const EvaluationSummary& run, const std::string& quantity) {
     fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
 }
 
-/// Of the further columns, unless they are too many to be read.
+/// Ranges of the further columns, unless they are too many to be read.
 void print_further(const WrittenRun& written) {
   constexpr std::size_t most_columns = 12;
   const std::vector<std::optional<ValueRange>>& ranges = written.summary.further;

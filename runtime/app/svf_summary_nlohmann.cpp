@@ -79,6 +79,14 @@ Json values_json(const EvaluationSummary& run) {
           {"mean_near_buildings", number_or_null(run.svf_mean_near_buildings)}};
 }
 
+void add_further(const WrittenRun& written, Json& j) {
+  if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
+  const auto& ranges = written.summary.further;
+  for (std::size_t k = 0; k < ranges.size(); ++k)
+    if (const auto& range = ranges[k])
+      j["values"][written.further_columns[k]] = {{"min", range->min}, {"mean", range->mean}, {"max", range->max}};
+}
+
 }  // namespace
 
 std::string svf_summary_json(const WrittenRun& written, const SvfOptions& options, double total_seconds) {
@@ -97,10 +105,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
             {"receivers_near_buildings", run.near_buildings},
             {"peak_memory_mib", peak_memory_mib()},
             {"svf", values_json(run)}};
-  if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
-  for (std::size_t k = 0; k < run.further.size(); ++k)
-    if (const auto& range = run.further[k])
-      j["values"][written.further_columns[k]] = {{"min", range->min}, {"mean", range->mean}, {"max", range->max}};
+  add_further(written, j);
   if (written.light) j["light"] = json_of(*written.light, *options.evaluation.further.light, *options.light);
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);

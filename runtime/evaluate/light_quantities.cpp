@@ -323,7 +323,7 @@ void FurtherQuantities::add_sky_component(const ProfiledPacket& packet, Quantity
   const std::vector<PacketHorizon::Row>& sums = packet.rows.light;
   Lanes column{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
-    const float sky = with_the_sky_of(packet.sky.svf[l], sums[uniform][l], sums[overcast][l], 1.0F);
+    const float sky = with_the_sky_of(packet.sky.svf[l], sums[uniform][l], sums[overcast][l], light_->on_level()[overcast]);
     column[l] = std::max(0.0F, sky - packet.rows.lost[overcast][l]);
   }
   columns.add(column);

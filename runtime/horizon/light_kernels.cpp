@@ -37,15 +37,15 @@ template <bool all_look_up>
 struct LitColumn {
   static constexpr std::size_t most_reads = 5;
 
+  LightRead reads[most_reads];
   Floats outward, upward;
   SlopeInterval front;
-  float of_turn;  ///< the share of an azimuth
-  LightRead reads[most_reads];
-  std::size_t read_count = 0;
   Floats uniform;  ///< of the reads
+  std::size_t read_count = 0;
+  float of_turn;  ///< the share of an azimuth
 
   FARLOD_LANES LitColumn(const LightScene& scene, const Normals& n, std::size_t azimuth)
-      : of_turn(1.0F / static_cast<float>(scene.azimuths.size)), uniform(0.0F) {
+      : uniform(0.0F), of_turn(1.0F / static_cast<float>(scene.azimuths.size)) {
     if constexpr (all_look_up) {
       upward = broadcast(1.0F);
       front = {broadcast(0.0F), broadcast(straight_up)};
@@ -111,10 +111,9 @@ FARLOD_LANES MovedJump moved_jump(const LightScene& scene, std::size_t azimuth, 
   return {choose(jumps, choose(whole * missing > 0.0F, share, zero), zero), beside, true};
 }
 
-/// Adds what comes from an azimuth.
+/// What is read of an azimuth.
 template <bool all_look_up>
-FARLOD_LANES void add_column(const LightScene& scene, const Normals& normals, std::size_t azimuth, float* sums) {
-  LitColumn<all_look_up> column(scene, normals, azimuth);
+FARLOD_LANES void read_column(const LightScene& scene, std::size_t azimuth, LitColumn<all_look_up>& column) {
   const std::size_t row = azimuth * lane_count;
   const Floats zero = broadcast(0.0F), one = broadcast(1.0F);
   // (1) Above the horizon, and where it jumps above that of a neighbor
@@ -135,6 +134,13 @@ FARLOD_LANES void add_column(const LightScene& scene, const Normals& normals, st
   }
   // (3) Not what is behind the receivers, above their own planes
   if (!all_look_up && bits_of(column.front.highest < no_light_above) != 0) column.read(column.front.highest, -one);
+}
+
+/// Adds what comes from an azimuth.
+template <bool all_look_up>
+FARLOD_LANES void add_column(const LightScene& scene, const Normals& normals, std::size_t azimuth, float* sums) {
+  LitColumn<all_look_up> column(scene, normals, azimuth);
+  read_column(scene, azimuth, column);
   const auto add = [&](std::size_t layer, const Floats& light) {
     store(load(sums + layer * lane_count) + light, sums + layer * lane_count);
   };

@@ -20,10 +20,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// What comes from the directions between two knots of an azimuth: along it, and from above.
-struct Part {
-  double along = 0.0, up = 0.0;
-};
+using Part = LightPart;
 /// Parts of all azimuths: [azimuth][knot].
 using Parts = std::vector<Part>;
 
@@ -289,25 +286,27 @@ LightTable::LightTable(const Light& light, std::span<const double> turns, bool w
   pairs_ = (layers.of.size() + 1) / 2;
   even_.resize(last_knot + 1);
   values_.resize(turns.size() * (last_knot + 1) * (pairs_ - 1));
-  for (std::size_t layer = 0; layer < layers.of.size(); ++layer) {
-    const bool is_even = layer / 2 == 0;
-    Part all;
-    for (std::size_t k = 0; k < (is_even ? 1 : turns.size()); ++k) {
-      Part above;
-      for (std::size_t knot = last_knot; knot-- > 0;) {
-        const Part& part = layers.of[layer][k * last_knot + knot];
-        above = {above.along + part.along, above.up + part.up};
-        LightPair& pair = is_even ? even_[knot] : values_[(k * (last_knot + 1) + knot) * (pairs_ - 1) + layer / 2 - 1];
-        pair.along[layer % 2] = static_cast<float>(above.along);
-        pair.up[layer % 2] = static_cast<float>(above.up);
-      }
-      all = {all.along + above.along, all.up + above.up};
+  for (std::size_t layer = 0; layer < layers.of.size(); ++layer) add_layer(layer, layers.of[layer], turns.size());
+}
+
+void LightTable::add_layer(std::size_t layer, std::span<const LightPart> parts, std::size_t azimuths) {
+  const bool is_even = layer / 2 == 0;
+  LightPart all;
+  for (std::size_t k = 0; k < (is_even ? 1 : azimuths); ++k) {
+    LightPart above;
+    for (std::size_t knot = last_knot; knot-- > 0;) {
+      const LightPart& part = parts[k * last_knot + knot];
+      above = {above.along + part.along, above.up + part.up};
+      LightPair& pair = is_even ? even_[knot] : values_[(k * (last_knot + 1) + knot) * (pairs_ - 1) + layer / 2 - 1];
+      pair.along[layer % 2] = static_cast<float>(above.along);
+      pair.up[layer % 2] = static_cast<float>(above.up);
     }
-    const double azimuths = is_even ? static_cast<double>(turns.size()) : 1.0;
-    on_level_.push_back(static_cast<float>(azimuths * all.up));
-    // The mean of the positive part of a cosine over the turn is 1 / π
-    on_upright_.push_back(static_cast<float>(azimuths * all.along / pi));
+    all = {all.along + above.along, all.up + above.up};
   }
+  const double times = is_even ? static_cast<double>(azimuths) : 1.0;
+  on_level_.push_back(static_cast<float>(times * all.up));
+  // The mean of the positive part of a cosine over the turn is 1 / π
+  on_upright_.push_back(static_cast<float>(times * all.along / pi));
 }
 
 }  // namespace farlod

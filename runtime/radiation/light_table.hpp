@@ -24,6 +24,11 @@ enum class LightLayer : std::size_t {
   first_total
 };
 
+/// What comes from the directions between two knots of an azimuth: along it, and from above.
+struct LightPart {
+  double along = 0.0, up = 0.0;
+};
+
 /// What pairs of layers give a receiver whose normal has been applied.
 [[nodiscard]] inline float light_of_layer(const LightPair* pairs, std::size_t layer) {
   return pairs[layer / 2].along[layer % 2] + pairs[layer / 2].up[layer % 2];
@@ -92,6 +97,8 @@ class LightTable {
   [[nodiscard]] double hours_of_illuminance() const { return hours_of_illuminance_; }
 
  private:
+  /// Sums up the parts of a layer, [azimuth][knot], from the zenith down.
+  void add_layer(std::size_t layer, std::span<const LightPart> parts, std::size_t azimuths);
   /// Adds a pair between a knot and the next one, which lies `step` behind it.
   static void add(const LightPair* here, std::size_t step, float part, float outward, float upward, LightPair& sum) {
     const LightPair* const above = here + step;

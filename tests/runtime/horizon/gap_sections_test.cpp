@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "farlod/point.hpp"
+#include "horizon/gap_kernels.hpp"
 #include "horizon/kernels.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
@@ -132,6 +133,40 @@ TEST_F(GapsBelowTriangles, ShowWhatNoTriangleHides) {
       }
   }
   EXPECT_GT(std::min(open, split), 1000) << "too few to tell";
+}
+
+/// Where eyes stand at corners of facets, sections are no numbers: what is open to one eye depends on no other, and an end comes.
+TEST(OpenGaps, OfEyesAtCornersOfFacets) {
+  RandomPlaces random;
+  const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
+  const auto whole = [&](double low, double high) { return std::round(random.between(low, high)); };
+  for (int turn = 0; turn < 200; ++turn) {
+    OverhangFacets facets;
+    for (int n = 0; n < 40; ++n) {
+      Corners corners;
+      for (Point3f& p : corners) p = {whole(-3.0, 3.0), whole(-3.0, 3.0), whole(0.0, 4.0)};
+      facets.add(corners);
+    }
+    GapBlock block{};
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
+      block.x[l] = whole(-3.0, 3.0), block.y[l] = whole(-3.0, 3.0), block.z[l] = whole(0.0, 4.0);
+      block.normal_z[l] = 1.0F;
+      block.cosine[l] = ring.cosine()[l / 4], block.sine[l] = ring.sine()[l / 4];
+      block.to[l] = l % 2 == 0 ? std::numeric_limits<float>::infinity() : random.between(0.3, 3.0);
+    }
+    std::vector<PacketHorizon::Row> room(2 * (facets.size() + 1));
+    const auto find = [&](GapBlock gaps) {
+      gap_kernels().find_open({facets.batches(), facets.boxes()}, false, room.front().data(), gaps);
+      return gaps;
+    };
+    const GapBlock together = find(block);
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
+      GapBlock alone = block;
+      for (std::size_t other = 0; other < packet_lanes; ++other) alone.to[other] = other == l ? block.to[l] : 0.0F;
+      ASSERT_EQ(find(alone).sky[l], together.sky[l]) << "turn " << turn << ", receiver " << l;
+      ASSERT_TRUE(together.sky[l] >= 0.0F && together.sky[l] <= 1.0F);
+    }
+  }
 }
 
 TEST_F(GapsBelowTriangles, AreAnsweredAlikeInAnyGroup) {
