@@ -19,6 +19,7 @@
 
 #include "align/align.hpp"
 #include "farlod/error.hpp"
+#include "farlod/points.hpp"
 #include "farlod/region.hpp"
 #include "georeference/georeference.hpp"
 #include "ingest/files/input_search.hpp"
@@ -159,8 +160,9 @@ TEST_P(RasterOfATown, PixelsBeyondTheGridStandWherePointsDo) {
       const Point2d centre = plan.centre_m(column, row);
       const bool is_beyond = !package_.grid().cells.contains(package_.grid().cell_of(manifest_.grid_from_projected(centre)));
       beyond += is_beyond ? 1U : 0U;
-      if (is_beyond && answered.contains(centre))
+      if (is_beyond && answered.contains(centre)) {
         EXPECT_TRUE(found.contains(row * plan.columns + column)) << row << "," << column;
+      }
     }
   EXPECT_GT(beyond, 1000U);
   // The same in the cells of the grid
