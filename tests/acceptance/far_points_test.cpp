@@ -48,10 +48,11 @@ TEST_F(PackedTown, RowsThatLieElsewhereHaveNoAnswerAndCountInNoFigure) {
   folder.write("some.csv", "id,x,y\na," + text_of(street_crossing) + "\nb," +
                                text_of(Point2d{street_crossing.y, street_crossing.x}) + "\nc,9.0,49.65\nd,1e12,0\n");
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --summary s.json --points some.csv");
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("1 receiver, "), HasSubstr(", 3 beyond the grid"),
-                                 HasSubstr("3 of 4 points lie more than 200 m beyond the grid of the city and have no answer; the "
-                                           "first is point b at "),
-                                 Not(HasSubstr("outside of the grid"))));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("1 receiver, "), HasSubstr(", 3 beyond the grid"),
+                    HasSubstr("3 of 4 points lie more than 200 m beyond the grid of the city and have no answer; the "
+                              "first is point b at "),
+                    Not(HasSubstr("outside of the grid"))));
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), 4U);
   for (const std::size_t n : {1U, 2U, 3U})
@@ -71,8 +72,9 @@ TEST_F(PackedTown, RowsOfExchangedDegreesHaveNoAnswerBesideOthers) {
   for (const std::string output : {"o.csv", "o.geojson", "o.gpkg", "o.fgb", "o.nc", "o.ply", "o.glb"}) {
     const Outcome outcome = folder.run("farlod-svf a.farlod --points some.csv -o " + output);
     EXPECT_EQ(outcome.exit_code, exit_done) << outcome.err;
-    EXPECT_THAT(outcome.out, AllOf(HasSubstr("3 receivers, "), HasSubstr("first is point c at 35.9, 139.6"),
-                                   HasSubstr("1 of 5 points lies more than 200 m beyond the grid of the city and has no answer")));
+    EXPECT_THAT(outcome.out,
+                AllOf(HasSubstr("3 receivers, "), HasSubstr("first is point c at 35.9, 139.6"),
+                      HasSubstr("1 of 5 points lies more than 200 m beyond the grid of the city and has no answer")));
   }
   EXPECT_EQ(table("o.csv").text(2, "x_m"), "");
   EXPECT_EQ(table("o.csv").text(3, "svf"), table("o.csv").text(0, "svf"));
@@ -91,7 +93,8 @@ TEST_F(PackedTown, RowsThatCannotBeReadStayInTheTable) {
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), 20U);
   EXPECT_EQ(answers.text(6, "id"), "s6");
-  for (const char* column : {"x_m", "y_m", "z_m", "height_above_ground_m", "svf"}) EXPECT_EQ(answers.text(6, column), "") << column;
+  for (const char* column : {"x_m", "y_m", "z_m", "height_above_ground_m", "svf"})
+    EXPECT_EQ(answers.text(6, column), "") << column;
   EXPECT_EQ(answers.text(7, "id"), "s7");
   EXPECT_NE(answers.text(7, "svf"), "");
   EXPECT_EQ(folder.json_of("s.json").at("receivers"), 19);
@@ -121,8 +124,9 @@ TEST_F(HighTown, AColumnOfHeightsAboveGroundIsTheHeightOfEachStation) {
       EXPECT_EQ(table("o.csv").number(2, "height_above_ground_m"), 1.5) << "as --height says";
     }
   EXPECT_LT(table("o.csv").number(0, "svf"), table("o.csv").number(1, "svf"));
-  folder.write("p.geojson",
-               R"({"type":"Feature","properties":{"height_above_ground_m":4},"geometry":{"type":"Point","coordinates":[9.0,49.655]}})");
+  folder.write(
+      "p.geojson",
+      R"({"type":"Feature","properties":{"height_above_ground_m":4},"geometry":{"type":"Point","coordinates":[9.0,49.655]}})");
   folder.must("farlod-svf high.farlod -o f.csv --points p.geojson");
   EXPECT_EQ(table("f.csv").number(0, "height_above_ground_m"), 4.0);
 }

@@ -30,8 +30,8 @@ struct Change {
                           memory_limit, resume, merge, shard, run] = o;
   [[maybe_unused]] auto& [choice, spacing_m, irradiation_threshold] = surfaces;
   [[maybe_unused]] auto& [above, height_m] = placing;
-  [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, within_m, further] =
-      evaluation;
+  [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, within_m,
+                          further] = evaluation;
   [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, sunlit_total, light, irradiation,
                           irradiance, illuminance, shade, sky_component, view_factors, view_factors_below, svf_total,
                           svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;

@@ -141,7 +141,8 @@ TEST(PointReader, ARowOfManyThatCannotBeReadKeepsItsPlaceInTheTableAndIsTold) {
   EXPECT_EQ(read.points[6].id, "7");
   EXPECT_THAT(row_of(read.attributes, 6), ElementsAre("s7"));
   EXPECT_EQ(read.skipped_features, 1U);
-  EXPECT_THAT(read.notes, ElementsAre(AllOf(HasSubstr("points.csv:8"), HasSubstr("\"unknown\""), HasSubstr("1 of 20 rows cannot be read and has"))));
+  EXPECT_THAT(read.notes, ElementsAre(AllOf(HasSubstr("points.csv:8"), HasSubstr("\"unknown\""),
+                                            HasSubstr("1 of 20 rows cannot be read and has"))));
   EXPECT_EQ(read.points[7].id, "8");
   EXPECT_THAT(row_of(read.attributes, 7), ElementsAre("s8"));
   EXPECT_THAT(table_of(stations + "u,5,\nv,5,\n" + stations.substr(stations.find('\n') + 1)).notes,
