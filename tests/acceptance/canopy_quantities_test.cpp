@@ -114,8 +114,8 @@ TEST_F(TreeTown, HasHoursOfSunshinePastItsCrownsBesideThoseOfTheOpen) {
   const std::string day = "farlod-svf b.farlod -o o.csv --sun 2026-06-21 --at " + under_trees;
   folder.must(day);
   const CsvTable row = table("o.csv");
-  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "svf_total", "svfveg",
-                                        "sunlit_h", "sunlit_total_h"));
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf", "sunlit_h", "sunlit_total_h",
+                                        "svf_total", "svfveg"));
   EXPECT_LT(row.number(0, "sunlit_total_h"), row.number(0, "sunlit_h") - 0.5) << "a tree stands to the side";
   folder.must(day + " --transmissivity 1");
   EXPECT_EQ(table("o.csv").number(0, "sunlit_total_h"), row.number(0, "sunlit_h"));

@@ -78,7 +78,7 @@ TEST_F(WideTown, WhatNeedsTheWholeCityIsRefusedWhereItHasNoRoom) {
     folder.must("farlod-svf a.farlod " + raster + whole);
     folder.must("farlod-svf a.farlod " + raster + whole + limit(1000));
   }
-  const std::string beyond = "-o o.csv --at 501000,5500000";
+  const std::string beyond = "-o o.csv --at 500900,5500000";
   expect_refusal(folder.run("farlod-svf a.farlod " + beyond + limit(mib)), exit_limit_reached, {"points beyond the grid"});
   folder.must("farlod-svf a.farlod " + beyond);
   // What is asked for is enough
