@@ -75,7 +75,8 @@ TEST(Irradiation, OfAStreetUnderAnIsotropicSkyIsItsSkyViewFactor) {
   for (const Engine engine : engines_of_light) {
     const auto got = packed.columns(engine, irradiation_of(hour_of(180, 40, 0, 1000)));
     EXPECT_NEAR(got.at("irradiation_diffuse"), street.svf(), tolerance_of_light);
-    EXPECT_NEAR(got.at("irradiation_diffuse"), got.at("svf"), 1e-6);
+    // Light is interpolated between the knots of its table, the uniform sky is not
+    EXPECT_NEAR(got.at("irradiation_diffuse"), got.at("svf"), 1e-5);
   }
 }
 
