@@ -207,7 +207,10 @@ std::vector<SurfaceIds> random_ids(std::mt19937_64& random) {
   for (std::uint64_t n = random() % 6; n > 0; --n) {
     const std::uint32_t begin = end + static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 1000 : 0);
     end = begin + 1 + static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 100 : 0);
-    ids.push_back({begin, end, random() % 4 == 0 && !ids.empty() ? ids.back().id : random_id(random), random() % 5 == 0});
+    SurfaceIds& added = ids.emplace_back(
+        SurfaceIds{begin, end, random() % 4 == 0 && !ids.empty() ? ids.back().id : random_id(random), random() % 5 == 0});
+    // No text begins with a byte 0
+    if (added.id.empty() || added.id.front() == '\0') added.id.replace(0, 1, "a");
   }
   return ids;
 }
