@@ -15,6 +15,7 @@ from farlod._light import Light
 from farlod._open_city import OpenCity
 from farlod._receivers import Receivers
 from farlod._settings import Above, Evaluation, Metric, Options, Quantity, SkyPatches
+from farlod.errors import InvalidArgument
 
 if TYPE_CHECKING:
     import xarray
