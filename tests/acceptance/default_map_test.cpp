@@ -8,6 +8,7 @@
 
 #include "base/frame.hpp"
 #include "farlod/box.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 namespace farlod::acceptance {
