@@ -9,7 +9,6 @@
 #include <sstream>
 #include <utility>
 
-#include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "georeference/height_shift.hpp"
@@ -25,16 +24,22 @@ namespace {
 /// of a wall over its distance is wrong by 1 %, and so is the sky view factor.
 constexpr double greatest_scale_error = 0.01;
 
-/// Empty when the city is not in the area of use: for the coordinates of a local site, the scale of the map has no meaning.
 std::optional<double> scale_error_at(const Crs& crs, Point2d p) {
-  const auto place = crs.lon_lat_deg(p);
-  const auto area = crs.area_of_use();
   const auto distortion = crs.distortion_at(p);
-  if (!place || !distortion || (area && !area->contains(*place))) return std::nullopt;
+  if (!distortion) return std::nullopt;
   return std::max(std::abs(distortion->least_scale - 1.0), std::abs(distortion->greatest_scale - 1.0));
 }
 
-bool has_true_metres(const Crs& crs, Point2d p) { return scale_error_at(crs, p).value_or(0.0) <= greatest_scale_error; }
+bool is_in_area_of_use(const Crs& crs, Point2d p) {
+  const auto place = crs.lon_lat_deg(p);
+  const auto area = crs.area_of_use();
+  return place && (!area || area->contains(*place));
+}
+
+/// True for coordinates outside of the area of use: for those of a local site, the scale of the map has no meaning.
+bool has_true_metres(const Crs& crs, Point2d p) {
+  return !is_in_area_of_use(crs, p) || scale_error_at(crs, p).value_or(0.0) <= greatest_scale_error;
+}
 
 Crs utm_around(const Crs& input, Point2d typical) {
   const auto place = input.lon_lat_deg(typical);
@@ -43,6 +48,16 @@ Crs utm_around(const Crs& input, Point2d typical) {
                      " has no place on the Earth: check the input's CRS, or choose the output's with --out-crs EPSG:n");
   const Crs base = input.geographic();
   return (base.is_in_degrees_from_greenwich() ? base : *Crs::find("EPSG:4326")).utm(utm_zone_of(*place));
+}
+
+/// ", such as EPSG:32631 (WGS 84 / UTM zone 31N)"; empty where the city has no place on the Earth.
+std::string such_as(const Crs& input, Point2d typical) {
+  const auto place = input.lon_lat_deg(typical);
+  const auto wgs84 = Crs::find("EPSG:4326");
+  if (!place || !wgs84) return "";
+  const Crs utm = wgs84->utm(utm_zone_of(*place));
+  const auto code = utm.epsg();
+  return ", such as " + (code ? "EPSG:" + std::to_string(*code) + " (" + utm.name() + ")" : utm.name());
 }
 
 Crs wished_crs(const Crs& input, Point2d typical, const std::string& wish) {
@@ -55,9 +70,11 @@ Crs wished_crs(const Crs& input, Point2d typical, const std::string& wish) {
                      ") is not projected in metres to the east and north: give one that is, such as UTM");
   const auto p = CrsTransformation(input, crs, typical).apply(typical);
   if (!p) throw InputError(name + " (" + crs.name() + ") has no place for the city: give one that is meant for its region");
-  if (!has_true_metres(crs, *p))
-    throw InputError(name + " (" + crs.name() +
-                     "): at the city its metres are off by more than 1 %: give a local one, such as UTM");
+  // Where the city lies is certain if its own CRS is meant to be used there
+  const bool is_elsewhere = is_in_area_of_use(input, typical) && scale_error_at(crs, *p).value_or(1.0) > greatest_scale_error;
+  if (is_elsewhere || !has_true_metres(crs, *p))
+    throw InputError(name + " (" + crs.name() + "): at the city its metres are off by more than 1 %: give a local one" +
+                     such_as(input, typical));
   return crs;
 }
 
@@ -210,6 +227,12 @@ void move_to_origin(LocatedCity& located, const Crs& output) {
   city.for_each_building([&](std::size_t, const Building& b) { move(city.points_of(b)); });
 }
 
+Crs output_of(const ResolvedSource& first, const std::string& wish, Report& report) {
+  Crs output = choose_output_crs(first.crs, first.typical, wish);
+  if (!wish.empty()) report_output(first.crs, output, first.typical, report);
+  return output;
+}
+
 bool is_empty(const SourceCity& source) { return source.city.points().empty() && source.relief_points.empty(); }
 
 }  // namespace
@@ -222,7 +245,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
   std::string heights_of_model;
   for (std::size_t n = 0; n < sources.size(); ++n) {
     ResolvedSource resolved = resolve(std::move(sources[n]), inputs[n], report);
-    if (!output) output = choose_output_crs(resolved.crs, resolved.typical, settings.out_crs);
+    if (!output) output = output_of(resolved, settings.out_crs, report);
     shift_heights(resolved, located.notes, heights_of_model, report);
     project(resolved, *output, report);
     locate_problems(resolved, report);
