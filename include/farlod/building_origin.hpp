@@ -35,7 +35,7 @@ struct SurfaceOrigin {
 /// What the file calls consecutive surfaces of a building.
 struct SurfaceIds {
   std::uint32_t begin = 0, end = 0;  ///< numbers of surfaces, half open
-  std::string id;                    ///< at most 256 bytes
+  std::string id;                    ///< at most 256 bytes, of which the first is not 0
   bool behind_building_id = false;   ///< whether the id of the building stands before it
   bool operator==(const SurfaceIds&) const = default;
 };

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <vector>
 
+#include "align/inputs_apart.hpp"
 #include "base/expects.hpp"
 #include "base/paging/paged_array.hpp"
 #include "farlod/error.hpp"
@@ -268,8 +269,9 @@ GridAlignment align(const LocatedCity& located, const GridSettings& settings, Re
     for (const Point3d& p_city : located.city.points_of(b)) box_grid.add(grid.rotation.grid_from_city(horizontal(p_city)));
   });
   cover(grid, box_grid);
-  if (const auto doubt = doubt_about_grid(located.city, grid))
-    report.add({ProblemCode::nearly_empty_grid, "", "whole city", *doubt});
+  auto doubt = area_m2(grid.rectangle()) >= large_grid_m2 ? inputs_apart(located, grid) : std::nullopt;
+  if (!doubt) doubt = doubt_about_grid(located.city, grid);
+  if (doubt) report.add({ProblemCode::nearly_empty_grid, "", "whole city", *doubt});
   return {grid, streets};
 }
 

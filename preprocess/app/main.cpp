@@ -43,6 +43,16 @@ InputError refusal(const ProblemsRefused& refused, const std::string& report_fil
   return InputError(std::string(refused.what()) + ", and --strict allows none: no package is written; " + list + ".");
 }
 
+/// What a problem says of whole files, which the count of files does not tell.
+void print_files(const Report& report, ProblemCode code) {
+  constexpr std::size_t most_files = 3;
+  std::size_t files = 0;
+  for (const Problem& p : report.problems())
+    if (p.code == code && p.place == "the whole file" && files++ < most_files)
+      fmt::print("           {}: {}\n", p.source, p.detail);
+  if (files > most_files) fmt::print("           and {} more files\n", files - most_files);
+}
+
 /// A line for each kind of problem, so that nothing is lost silently; --report has them one by one.
 void print_problems(const Report& report, const std::string& report_file) {
   std::map<ProblemCode, std::size_t> counts;
@@ -50,6 +60,7 @@ void print_problems(const Report& report, const std::string& report_file) {
   for (const auto& [code, count] : counts) {
     const ProblemDescription& d = describe(code);
     fmt::print("  {:>6} × {} {}: {} ({})\n", count, static_cast<int>(code), d.slug, d.summary, name_of(d.effect));
+    print_files(report, code);
   }
   if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
 }
@@ -75,6 +86,19 @@ void print_skipped(const SkippedFeatures& skipped) {
     fmt::print("{}{} {}", n == 0 ? "Not used: " : ", ", rows[n].second, rows[n].first);
   if (rows.size() > most_rows) fmt::print(" and {} other kinds (--summary lists all)", rows.size() - most_rows);
   if (!rows.empty()) fmt::print("\n");
+}
+
+/// Why the surfaces of streets and gardens are not the ground, where nothing surveyed is.
+void print_unused_ground(const SkippedFeatures& skipped, const CityLooks& looks) {
+  constexpr std::array level_things{"Road", "Railway", "Square", "TransportSquare", "LandUse", "PlantCover", "WaterBody"};
+  const bool is_surveyed =
+      looks.ground && (looks.ground->source == GroundSource::terrain || looks.ground->source == GroundSource::relief);
+  std::string names;
+  for (const char* name : level_things)
+    if (skipped.contains(name)) names += (names.empty() ? "" : ", ") + std::string(name);
+  if (looks.ground && !is_surveyed && !names.empty())
+    fmt::print("  {} are not taken as ground, since many models draw them at height 0: --terrain DEM tells its heights.\n",
+               names);
 }
 
 void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
@@ -136,11 +160,12 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
   fmt::print(", {} {}\n", report.problems().size(), report.problems().size() == 1 ? "problem" : "problems");
-  if (result.crowns != CrownCounts{})
+  if (result.crowns != CrownCounts{} || options.settings.trees.any())
     fmt::print("Crowns: {} of trees, {} of cells of a canopy\n", result.crowns.of_trees, result.crowns.of_canopy);
   print_problems(report, options.report_file);
   print_left_out(buildings_left_out(report), m.buildings);
   print_skipped(result.skipped);
+  print_unused_ground(result.skipped, result.looks);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);
   print_looks(result.looks);
   fmt::print("CRS: {}\n", m.crs_name);

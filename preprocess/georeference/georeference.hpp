@@ -15,7 +15,8 @@ namespace farlod::georeference {
 
 /// The CRS of the city: `wish` if it is not empty; else the CRS of the input if it is projected in metres, the same in metres if
 /// it is projected in another unit, and UTM on its datum otherwise. `typical` is a place of the city in `input`. A projection
-/// with a large scale error at the city, such as Web Mercator, is not used. Throws InputError when `wish` cannot be used.
+/// with a large scale error at the city, such as Web Mercator or a far zone, is not used. Throws InputError when `wish` cannot be
+/// used.
 [[nodiscard]] Crs choose_output_crs(const Crs& input, Point2d typical, const std::string& wish);
 
 /// The city frame with its origin at `centre`, rounded to whole metres.
@@ -44,7 +45,7 @@ struct GeoreferenceSettings {
 ///       is empty, and the file says nothing, that of the package
 ///   (2) the order of axes is found as it is for buildings, and told as it is there (axes_swapped, zone_in_easting,
 ///       unlikely_place); besides, degrees that lie at the city only in the other order are taken in that
-///   (3) trees without a place in the CRS of the package are left out, and reported together
+///   (3) trees without a place in the CRS of the package are left out, and reported together (tree_outside_of_grid)
 /// Problems of the file that have positions get a longitude and latitude. Throws InputError when the file names a CRS that is not
 /// known and there is no other, or when its coordinates cannot be in its CRS.
 void locate_trees(SourceTrees& trees, const std::string& fallback_crs, const Georeference& georeference, Report& report);

@@ -369,4 +369,14 @@ void report_place(const std::string& raster, const Crs& crs, Point2d middle, Poi
   of_file.add(ProblemCode::implausible_size, std::move(text).str());
 }
 
+void report_output(const Crs& input, const Crs& output, Point2d typical, Report& report) {
+  if (!may_be_used_at(input, typical)) return;
+  const auto p = CrsTransformation(input, output, typical).apply(typical);
+  if (!p || may_be_used_at(output, *p)) return;
+  report.add({ProblemCode::unlikely_place, "", "whole city",
+              "the city lies at " + place_text(*p) + ", where the CRS of --out-crs, " + output.name() +
+                  ", is not meant to be used: give one of its region, or leave the option out",
+              Point3d{p->x, p->y, 0.0}});
+}
+
 }  // namespace farlod::georeference

@@ -88,4 +88,8 @@ struct ResolvedSource {
 /// smaller than a centimetre or wider than 10 km. Throws InputError as `resolve` does.
 void report_place(const std::string& raster, const Crs& crs, Point2d middle, Point2d beside, Report& report);
 
+/// Reports an output CRS that is not meant to be used where the city lies (unlikely_place), unless its input's is not either.
+/// `typical` is a place of the city in that.
+void report_output(const Crs& input, const Crs& output, Point2d typical, Report& report);
+
 }  // namespace farlod::georeference

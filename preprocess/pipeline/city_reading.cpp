@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/city_reading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <system_error>
 #include <utility>
@@ -16,7 +17,6 @@
 #include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
 #include "ingest/files/file_format.hpp"
-#include "ingest/trees/tree_reader.hpp"
 #include "tiles/pixel_steps.hpp"
 
 namespace farlod::pipeline {
@@ -35,6 +35,19 @@ Box2d outline_of(std::span<const Point3d> points) {
   Box2d outline;
   for (const Point3d& p : points) outline.add(horizontal(p));
   return outline;
+}
+
+/// The share of the grid for which the raster has heights, by places that lie evenly in it.
+double covered_share(const TerrainRaster& terrain, const Grid& grid) {
+  constexpr int side = 64;
+  const auto& [low, high] = grid.rectangle();
+  int covered = 0;
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column) {
+      const Point2d p_grid{low.x + (column + 0.5) / side * (high.x - low.x), low.y + (row + 0.5) / side * (high.y - low.y)};
+      covered += terrain.height_at(grid.rotation.city_from_grid(p_grid)) ? 1 : 0;
+    }
+  return static_cast<double>(covered) / (side * side);
 }
 
 /// The outline of a city without buildings: that of its terrain or relief.
@@ -83,8 +96,10 @@ class CityReading {
     // The grid of a terrain alone covers all of it
     if (!read_.located.city.buildings().empty()) read_.terrain_files = std::move(files_.terrain.files);
     read_.far_terrain_files = std::move(files_.far_terrain.files);
-    if (const auto& terrain = read_.ground.terrain)
+    if (const auto& terrain = read_.ground.terrain) {
       read_.notes.insert(read_.notes.end(), terrain->notes.begin(), terrain->notes.end());
+      if (!read_.located.city.buildings().empty()) note_share(covered_share(*terrain, read_.ground.grid));
+    }
     return std::move(read_);
   }
 
@@ -106,6 +121,16 @@ class CityReading {
       std::move(source.notes.begin(), source.notes.end(), std::back_inserter(read_.notes));
     }
     return sources;
+  }
+
+  /// What is missing at the rim of the outermost cells is not worth a word.
+  void note_share(double share) {
+    constexpr double all_but_a_rim = 0.95;
+    if (share >= all_but_a_rim) return;
+    read_.notes.push_back(
+        fmt::format("The terrain has heights for {:.0f} % of the grid; elsewhere the ground is as high as the "
+                    "nearest of them: --terrain takes several files",
+                    100.0 * share));
   }
 
   void locate(std::vector<SourceCity> sources) {
@@ -299,101 +324,6 @@ CityFiles find_city_files(const StageSettings& settings, Report& report) {
 ReadCity read_city(CityFiles files, const StageSettings& settings, Report& report, const std::stop_token& stop,
                    const RunStage& run_stage) {
   return CityReading(std::move(files), settings, report, stop, run_stage).run();
-}
-
-namespace {
-
-/// Inventories that cannot be used are reported and left out where there are several; of one alone the reason is thrown.
-class Usable {
- public:
-  Usable(std::size_t count, Report& report) : count_(count), report_(report) {}
-
-  void take(const std::filesystem::path& file, const std::function<void()>& work) {
-    try {
-      work();
-      ++taken_;
-    } catch (const InputError& error) {
-      if (count_ == 1) throw;
-      if (first_failure_.empty()) first_failure_ = error.what();
-      std::error_code unread;
-      const bool is_empty = std::filesystem::is_regular_file(file, unread) && std::filesystem::file_size(file, unread) == 0;
-      report_.add({is_empty ? ProblemCode::empty_file : ProblemCode::unusable_file, file.string(), "the whole file",
-                   is_empty ? "0 bytes: was the download cut short?" : error.what()});
-    }
-  }
-  void require_one() const {
-    if (count_ > 0 && taken_ == 0)
-      throw InputError("None of the " + std::to_string(count_) +
-                       " inventories of trees can be used. The first problem: " + first_failure_);
-  }
-
- private:
-  std::size_t count_, taken_ = 0;
-  Report& report_;
-  std::string first_failure_;
-};
-
-void append(ReadTrees& read, SourceTrees source) {
-  const auto number = static_cast<std::uint16_t>(read.trees.sources.size());
-  read.trees.sources.push_back(source.source);
-  for (const auto& [what, count] : source.skipped) read.skipped[what] += count;
-  for (Tree& tree : source.trees) tree.source = number;
-  if (read.trees.trees.empty())
-    read.trees.trees = std::move(source.trees);
-  else
-    read.trees.trees.append({source.trees.begin(), source.trees.end()});
-}
-
-std::optional<georeference::CanopyFiles> canopy_files(const StageSettings& settings) {
-  if (!settings.trees.canopy) return std::nullopt;
-  return georeference::CanopyFiles{*settings.trees.canopy, settings.trees.trunks, settings.ingest.footprints.layer};
-}
-
-void require_files_exist(const TreeSettings& settings) {
-  std::vector<std::filesystem::path> files = settings.files;
-  if (settings.canopy) files.push_back(*settings.canopy);
-  if (settings.trunks) files.push_back(*settings.trunks);
-  std::error_code unread;
-  for (const std::filesystem::path& file : files)
-    if (!std::filesystem::exists(file, unread)) throw InputError(why_unread(file));
-}
-
-}  // namespace
-
-std::vector<SourceTrees> read_inventories(const StageSettings& stages, Report& report, const std::stop_token& stop) {
-  const TreeSettings& settings = stages.trees;
-  require_files_exist(settings);
-  if (settings.files.size() > std::numeric_limits<decltype(Tree::source)>::max())
-    throw InputError("There are " + std::to_string(settings.files.size()) +
-                     " inventories of trees: put them together into fewer.");
-  if (const auto canopy = canopy_files(stages)) georeference::require_canopy(*canopy);
-  std::vector<SourceTrees> inventories;
-  Usable usable(settings.files.size(), report);
-  for (const std::filesystem::path& file : settings.files)
-    usable.take(file, [&] { inventories.push_back(ingest::read_trees(file, settings, report, stop)); });
-  usable.require_one();
-  return inventories;
-}
-
-ReadTrees bring_to_city(std::vector<SourceTrees> inventories, const StageSettings& settings, const Georeference& georeference,
-                        const Grid& grid, Report& report, const std::stop_token& stop) {
-  const std::string& fallback_crs = settings.georeference.crs;
-  ReadTrees read;
-  Usable usable(inventories.size(), report);
-  for (SourceTrees& inventory : inventories) {
-    throw_if_cancelled(stop);
-    usable.take(inventory.source, [&] {
-      georeference::locate_trees(inventory, fallback_crs, georeference, report);
-      append(read, std::move(inventory));
-    });
-  }
-  usable.require_one();
-  if (const auto files = canopy_files(settings)) {
-    auto [canopy, notes] = georeference::read_canopy(*files, fallback_crs, georeference, outline_city(grid), stop);
-    read.trees.canopy = std::move(canopy);
-    read.notes.insert(read.notes.end(), notes.begin(), notes.end());
-  }
-  return read;
 }
 
 }  // namespace farlod::pipeline

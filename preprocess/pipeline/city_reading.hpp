@@ -17,7 +17,6 @@
 #include "georeference/raster_reader.hpp"
 #include "ingest/files/input_search.hpp"
 #include "pipeline/pack.hpp"
-#include "tiles/crowns_on_ground.hpp"
 
 namespace farlod::pipeline {
 
@@ -64,23 +63,5 @@ struct ReadCity {
 /// Reads the files, places the city, and lays a grid over it. Throws InputError, Cancelled.
 [[nodiscard]] ReadCity read_city(CityFiles files, const StageSettings& settings, Report& report, const std::stop_token& stop,
                                  const RunStage& run_stage);
-
-/// The trees that the settings name, in the city frame.
-struct ReadTrees {
-  tiles::TreesOfCity trees;
-  SkippedFeatures skipped;
-  std::vector<std::string> notes;  ///< for the user
-};
-
-/// Reads inventories, and opens rasters of canopies: before the city is read, so that a wrong file is told first. If there are
-/// several inventories, one that is empty or cannot be used as a whole is reported and left out. Throws InputError for a file
-/// that does not exist, when no inventory is left, or when a raster cannot be opened; Cancelled.
-[[nodiscard]] std::vector<SourceTrees> read_inventories(const StageSettings& stages, Report& report, const std::stop_token& stop);
-
-/// Brings them to the city, and reads the raster of canopies where the grid is. Inventories without a usable CRS are left out as
-/// before. Throws InputError when none is left, or a raster cannot be used; Cancelled.
-[[nodiscard]] ReadTrees bring_to_city(std::vector<SourceTrees> inventories, const StageSettings& settings,
-                                      const Georeference& georeference, const Grid& grid, Report& report,
-                                      const std::stop_token& stop);
 
 }  // namespace farlod::pipeline

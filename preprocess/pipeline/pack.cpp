@@ -23,6 +23,7 @@
 #include "pipeline/blocks.hpp"
 #include "pipeline/city_looks.hpp"
 #include "pipeline/city_reading.hpp"
+#include "pipeline/inventories.hpp"
 #include "pipeline/own_pixels.hpp"
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_target.hpp"

@@ -134,15 +134,18 @@ struct FileStanding {
   std::map<std::pair<std::int64_t, std::int64_t>, Group> squares;
   std::size_t buildings = 0, beyond = 0;
   std::optional<Point3d> first_beyond;
+  std::string first_id;  ///< of those beyond
 
-  void add(std::span<const Point3d> points, const SurveyedGround& ground) {
+  void add(const std::string& id, std::span<const Point3d> points, const SurveyedGround& ground) {
     Box2d box;
     for (const Point3d& p : points) box.add(horizontal(p));
     const Point2d middle = 0.5 * (box.low + box.high);
     ++buildings;
     if (!ground.extent_city.contains(middle)) {
       ++beyond;
-      if (!first_beyond) first_beyond = points.front();
+      if (first_beyond) return;
+      first_beyond = points.front();
+      first_id = id;
       return;
     }
     const auto number = [](double m) { return static_cast<std::int64_t>(std::floor(m / square_m)); };
@@ -194,9 +197,11 @@ std::string detail_of(const OffsetOfFile& offset, std::size_t all, bool is_raste
                     : "Bring the relief and the buildings of the file to one datum");
 }
 
-std::string detail_of_beyond(const FileStanding& file) {
-  return std::to_string(file.beyond) + " of " + std::to_string(file.buildings) +
-         " buildings lie beyond the terrain: the ground below them is that of its edge";
+std::string detail_of(const FileStanding& file, bool is_raster) {
+  const std::string survey = is_raster ? "terrain" : "relief";
+  return std::to_string(file.beyond) + " of " + std::to_string(file.buildings) + " buildings lie beyond the " + survey +
+         ", the first of them " + file.first_id + ": the ground below them is as high as the nearest of the " + survey +
+         (is_raster ? "; give all of it with --terrain" : "; --terrain DEM gives all of it");
 }
 
 }  // namespace
@@ -220,7 +225,7 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   const CityModel& city = located.city;
   city.for_each_building([&](std::size_t, const Building& b) {
     if (b.height_reference != HeightReference::elevation || b.foot == Foot::above_ground || city.points_of(b).empty()) return;
-    files[b.source].add(city.points_of(b), ground);
+    files[b.source].add(b.id, city.points_of(b), ground);
     ++all;
   });
   const Point2d origin_m = located.georeference.origin_m;
@@ -229,7 +234,7 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
     report.add({code, source, "the whole file", std::move(detail), p_city + Point3d{origin_m.x, origin_m.y, 0.0}});
   };
   for (std::size_t n = 0; n < files.size(); ++n) {
-    if (files[n].beyond > 0) tell(ProblemCode::beyond_terrain, n, detail_of_beyond(files[n]), *files[n].first_beyond);
+    if (files[n].beyond > 0) tell(ProblemCode::beyond_terrain, n, detail_of(files[n], ground.is_raster), *files[n].first_beyond);
     const auto offset = offset_of(files[n]);
     if (!offset) continue;
     const std::string detail = detail_of(*offset, files[n].buildings, ground.is_raster);

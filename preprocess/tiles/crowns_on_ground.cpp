@@ -31,7 +31,9 @@ auto key_of(const Tree& t) {
 /// How many trees of each file something was met with, and where first.
 class CountBySource {
  public:
-  explicit CountBySource(std::size_t sources) : entries_(sources) {}
+  explicit CountBySource(const TreesOfCity& of_city) : entries_(of_city.sources.size()) {
+    for (const Tree& tree : of_city.trees) ++entries_[tree.source].all;
+  }
 
   void add(const Tree& tree) {
     Entry& entry = entries_[tree.source];
@@ -39,16 +41,17 @@ class CountBySource {
   }
   void tell(ProblemCode code, const std::string& what, const TreesOfCity& trees, Point2d origin_m, Report& report) const {
     for (std::size_t n = 0; n < entries_.size(); ++n) {
-      const auto& [count, first] = entries_[n];
+      const auto& [count, all, first] = entries_[n];
       if (count == 0) continue;
       const Point2d p = origin_m + first;
-      report.add({code, trees.sources[n], "the whole file", std::to_string(count) + what, Point3d{p.x, p.y, 0.0}});
+      report.add({code, trees.sources[n], "the whole file", std::to_string(count) + " of " + std::to_string(all) + what,
+                  Point3d{p.x, p.y, 0.0}});
     }
   }
 
  private:
   struct Entry {
-    std::uint64_t count = 0;
+    std::uint64_t count = 0, all = 0;
     Point2d first;
   };
   std::vector<Entry> entries_;
@@ -125,7 +128,7 @@ void CrownPlacing::place_trees(TreesOfCity& of_city, const Ground& ground, Crown
   PagedArray<Tree>& trees = of_city.trees;
   const auto full_key = [](const Tree& t) { return std::tuple(key_of(t), t.source, t.place.x, t.place.y, t.foliage); };
   std::sort(trees.begin(), trees.end(), [&](const Tree& a, const Tree& b) { return full_key(a) < full_key(b); });
-  CountBySource outside(of_city.sources.size()), twice(of_city.sources.size());
+  CountBySource outside(of_city), twice(of_city);
   const Point2d axis_grid = grid_.rotation.grid_from_city(Point2d{1.0, 0.0});
   const double turn_rad = std::atan2(axis_grid.y, axis_grid.x);
   for (std::size_t n = 0; n < trees.size(); ++n) {

@@ -241,6 +241,26 @@ TEST_F(Report, StrictlyReadPacksASoundCity) {
   EXPECT_EQ(folder.json_of("r.json"), nlohmann::json::array());
 }
 
+TEST_F(Report, TellsOnTheTerminalWhichOfTwoCrsIsUsed) {
+  const Outcome outcome = folder.run("farlod-pack town.geojson --crs EPSG:25832 -o a.farlod");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1 × 203 two_crs"));
+  EXPECT_THAT(outcome.out,
+              testing::ContainsRegex("town.geojson: the file says EPSG:32632 .*; --crs says EPSG:25832 .*, which is used"));
+}
+
+TEST_F(Report, TellsWhichShareOfTheGridTheTerrainCovers) {
+  folder.write("sound.geojson", footprints_geojson(small_town()));
+  folder.write("west.asc", ascii_grid([](Point2d p) { return p.x < 0.0 ? 100.0 : -9999.0; }));
+  const Outcome half = folder.run("farlod-pack sound.geojson --terrain west.asc -o a.farlod");
+  EXPECT_THAT(half.out,
+              testing::ContainsRegex("The terrain has heights for (4[5-9]|5[0-5]) % of the grid; elsewhere the ground is"));
+  folder.write("all.asc", ascii_grid([](Point2d) { return 100.0; }));
+  const Outcome all = folder.run("farlod-pack sound.geojson --terrain all.asc -o a.farlod --force");
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_THAT(all.out, testing::Not(HasSubstr("The terrain has heights for")));
+}
+
 TEST_F(Report, ADefaultHeightFillsTheGap) {
   folder.must("farlod-pack town.geojson -o a.farlod --default-height 7 --summary s.json");
   EXPECT_EQ(folder.json_of("s.json").at("buildings"), 4) << "0 is no height either";

@@ -54,6 +54,8 @@ class PackRefuses : public testing::TestWithParam<RefusedCommand> {
     std::string elevations = footprints_geojson(blocks);
     for (std::size_t at = 0; (at = elevations.find("height", at)) != elevations.npos;) elevations.replace(at, 6, "nhn");
     folder.write("elevations.geojson", elevations);
+    folder.write("tokyo.csv", "lon,lat,height\n139.76,35.68,9\n139.77,35.68,9\n");
+    folder.write("perth.csv", "lon,lat,height\n115.86,-31.95,9\n");
     folder.write("typo.toml", "cel = 40\n");
   }
   WorkFolder folder;
@@ -78,6 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
                     unusable("OneOfTwoIsMissing", "town.geojson lost.gml -o a.farlod", {"lost.gml does not exist"}),
                     unusable_packing("NoTrees", "--trees lost.csv", {"lost.csv", "does not exist"}),
                     unusable("TreesAreNoInventory", "town.geojson --trees text.txt -o a.farlod --quiet", {"text.txt"}),
+                    unusable_packing("TreesOfAnotherPlace", "--trees tokyo.csv --quiet",
+                                     {"tokyo.csv: does not meet the city", "no tree of 2 stands", "CRS"}),
+                    unusable_packing("TreesOfTheOtherHemisphere", "--trees perth.csv --quiet",
+                                     {"perth.csv: does not meet the city", "no tree of 1 stands"}),
                     unusable("CanopyIsNoRaster", "town.geojson --canopy town.geojson -o a.farlod --quiet",
                              {"town.geojson", "is not a raster of the heights of crowns"}),
                     wrong_packing("TrunksWithoutCanopy", "--trunk a.tif", {"--trunk", "--canopy"}),
@@ -97,6 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
         unusable("CrsInWords", "box.obj --crs Germany -o a.farlod", {"--crs Germany", "give EPSG:n"}),
         unusable_packing("UnknownOutCrs", "--out-crs EPSG:99999", {"--out-crs EPSG:99999"}),
         unusable_packing("OutCrsInDegrees", "--out-crs EPSG:4326", {"EPSG:4326", "not projected", "UTM"}),
+        unusable_packing("OutCrsOfAFarZone", "--out-crs EPSG:32618",
+                         {"EPSG:32618", "at the city its metres are off", "such as EPSG:32632 (WGS 84 / UTM zone 32N)"}),
         unusable_packing("NoSuchHeightField", "--height-field tall", {"no field \"tall\"", "height, floors", "--height-field"}),
         unusable("ElevationsAsHeights", "elevations.geojson --height-field nhn -o a.farlod",
                  {"elevations.geojson: nhn holds elevations", "--roof-field nhn", "--base-field"}),

@@ -27,6 +27,26 @@ TEST_F(PackedTown, TreesAreCounted) {
   EXPECT_FALSE(folder.has("a.farlod/crowns.bin"));
 }
 
+TEST_F(PackedTown, TreesThatStandElsewhereAreCountedWithTheirFile) {
+  folder.write("trees.csv", street_trees() + "20,,5509000,509000,9.5,6\n21,,5509000,509100,9.5,6\n");
+  const Outcome outcome = folder.run("farlod-pack town.geojson --trees trees.csv -o b.farlod --report r.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Crowns: 20 of trees"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 × 210 tree_outside_of_grid: trees stand outside of the grid"));
+  EXPECT_THAT(outcome.out, HasSubstr("trees.csv: 2 of 22 trees stand outside of the grid"));
+}
+
+TEST_F(PackedTown, TreesWithoutAPlaceOnItsMapAreTreesInTheReport) {
+  folder.write("trees.csv", "lon,lat,height,crown_diameter\n9.0001,49.65,9,6\n139.76,35.68,9,6\n");
+  const Outcome outcome = folder.run("farlod-pack town.geojson --trees trees.csv -o b.farlod --report r.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("trees.csv: 1 of 2 trees, of which the first is at 139.76, 35.68, have no place in"));
+  const nlohmann::json problem = folder.json_of("r.json").at(0);
+  EXPECT_EQ(problem.at("code"), 210);
+  EXPECT_TRUE(problem.at("position").is_null()) << "it has none in the CRS of the package";
+  EXPECT_NEAR(problem.at("lon_lat").at(0).get<double>(), 139.76, 1e-4);
+}
+
 TEST_F(PackedTown, TreesAreWhatIsPackedToo) {
   folder.write("trees.csv", street_trees());
   folder.must("farlod-pack town.geojson --trees trees.csv -o b.farlod --quiet");

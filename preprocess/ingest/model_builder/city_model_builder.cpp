@@ -289,7 +289,8 @@ package::BuildingOrigin CityModelBuilder::origin_among(const PlacesOfBuilding& p
 }
 
 void CityModelBuilder::note_id(std::uint32_t surface, std::string_view id) {
-  if (id.empty() || id.size() > package::most_id_bytes) return;
+  // CityJSON may escape a byte 0, which no other text has
+  if (id.empty() || id.size() > package::most_id_bytes || id.front() == '\0') return;
   // Most ids that a program has made begin with that of the building, which the package has
   const bool is_behind = !id_.empty() && id.starts_with(id_);
   surface_ids_.push_back({surface, surface + 1, std::string(id.substr(is_behind ? id_.size() : 0)), is_behind});

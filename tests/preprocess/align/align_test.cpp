@@ -157,6 +157,24 @@ TEST(GridDoubt, IsThatThereAreNearlyNoBuildings) {
   EXPECT_THAT(doubt(std::move(huge)), HasSubstr("for 1 building"));
 }
 
+TEST(GridDoubt, IsThatInputsLieApartWithNothingBetween) {
+  LocatedCity located;
+  located.sources = {"a.gml", "b.gml", "c.gml"};
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    const Point2d corner = n == 2 ? Point2d{30e3, 40e3} : Point2d{600.0 * n, 0.0};
+    CityModel town;
+    for (int k = 0; k < 100; ++k)
+      add_extruded(town, rectangle(corner + Point2d{50.0 * (k % 10), 50.0 * (k / 10)}, Angle()), 10.0);
+    town.set_source(n);
+    located.city.append(std::move(town));
+  }
+  Report report;
+  (void)align(located, {}, report);
+  ASSERT_EQ(report.count(ProblemCode::nearly_empty_grid), 1U);
+  EXPECT_THAT(report.problems().back().detail, testing::AllOf(HasSubstr("c.gml"), HasSubstr("b.gml"), HasSubstr("49 km apart"),
+                                                              HasSubstr("99 % of"), HasSubstr("packed on its own")));
+}
+
 constexpr double huge_m = 1e300;
 
 /// Eight by six cells of 10 m, from (−20, −20) to (60, 40) in the grid frame.

@@ -341,6 +341,21 @@ TEST(Relief, MayBeOnePoint) {
   EXPECT_EQ(georeference({relief_with("EPSG:28992", {rotterdam, rotterdam})}, {}, report).relief_points.size(), 2u);
 }
 
+TEST(OutputCrs, OfAZoneThatIsNotMeantForTheCityIsDoubtful) {
+  Report report;
+  const std::vector<SourceCity> town{source_with("EPSG:32632", {500000.0, 5500000.0, 3.0}, 10.0)};
+  (void)georeference(town, {"", "EPSG:32633"}, report);
+  EXPECT_THAT(report.problems(), IsEmpty()) << "many surveys use one zone for a country";
+  (void)georeference(town, {"", "EPSG:32634"}, report);
+  ASSERT_EQ(report.count(ProblemCode::unlikely_place), 1u);
+  EXPECT_THAT(report.problems()[0].detail, AllOf(HasSubstr("--out-crs"), HasSubstr("UTM zone 34N")));
+}
+
+TEST(OutputCrs, OfAFarZoneIsRefused) {
+  Report report;
+  EXPECT_THROW((void)georeference({source_with("EPSG:28992", rotterdam, 10.0)}, {"", "EPSG:32618"}, report), InputError);
+}
+
 TEST(Place, IsInWgs84) {
   const PlaceOnEarth place = place_of(georeference_around({155000.0, 463000.0}, *Crs::find("EPSG:28992")));
   // RD New begins at the Onze Lieve Vrouwetoren of Amersfoort: 52.1551729 N, 5.3872035 E in ETRS89

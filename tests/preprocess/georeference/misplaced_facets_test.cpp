@@ -293,8 +293,9 @@ TEST(TreePlaces, ThoseWithoutAPlaceAreLeftOutTogether) {
   trees.trees.push_back(lost);
   const Located located(trees, "");
   EXPECT_EQ(located.trees.trees.size(), 5U);
-  EXPECT_EQ(located.codes(), std::vector<int>{201});
+  EXPECT_EQ(located.codes(), std::vector<int>{210});
   EXPECT_THAT(located.report.problems()[0].detail, HasSubstr("2 of 7 trees"));
+  EXPECT_FALSE(located.report.problems()[0].position);
 }
 
 }  // namespace

@@ -176,10 +176,19 @@ TEST(PackedTrees, PackagesWithoutAnyHaveNoFile) {
   p.run_as("plain.farlod");
   EXPECT_FALSE(p.result.manifest.canopy);
   EXPECT_FALSE(fs::exists(p.settings.output / package::crowns_file));
-  p.settings.trees.files = {p.write("far.csv", "x,y,height,crown\n590000,5490000,8,4\n590010,5490000,8,4\n")};
-  p.run_as("far.farlod");
+}
+
+TEST(PackedTrees, OfAnotherPlaceAloneAreRefused) {
+  TreePacking p;
+  const std::filesystem::path far = p.write("far.csv", "x,y,height,crown\n590000,5490000,8,4\n590010,5490000,8,4\n");
+  p.settings.trees.files = {far};
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] { p.run_as("far.farlod"); }),
+              testing::AllOf(HasSubstr("far.csv: does not meet the city"), HasSubstr("no tree of 2 stands")));
+  // Beside others they are told
+  p.settings.trees.files = {far, p.write("near.csv", "x,y,height,crown\n549990.5,5499990.25,8,4\n")};
+  p.run_as("both.farlod");
   EXPECT_EQ(p.codes(), std::set<int>{210});
-  EXPECT_FALSE(p.result.manifest.canopy);
+  EXPECT_EQ(p.result.crowns, (CrownCounts{1, 0}));
 }
 
 TEST(PackedTrees, StandOnTheTerrain) {

@@ -142,7 +142,9 @@ TEST(StandingHeights, BuildingsBeyondTheSurveyAreCounted) {
   const Town town;
   scenes::SceneBuilder scene;
   town.build(scene, [] { return 0.0; });
-  EXPECT_THAT(told(located(scene), town, 100.0), HasSubstr("48 of 64 buildings lie beyond the terrain"));
+  const std::string told_beyond = told(located(scene), town, 100.0);
+  EXPECT_THAT(told_beyond, HasSubstr("48 of 64 buildings lie beyond the terrain, the first of them "));
+  EXPECT_THAT(told_beyond, HasSubstr("the ground below them is as high as the nearest of the terrain"));
 }
 
 TEST(StandingHeights, DoNotDependOnWhereASquareBegins) {

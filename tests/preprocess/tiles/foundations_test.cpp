@@ -204,9 +204,9 @@ TEST(CrownsOnGround, EachTreeCountsOnce) {
   town.add({50.0, 200.5}, 8.0F, 6.0F, 2.0F, 1);  // outside
   EXPECT_EQ(town.crowns().size(), 3U);
   EXPECT_EQ(town.counts, (CrownCounts{3, 0}));
-  EXPECT_THAT(town.problems().at(123), HasSubstr("b.csv: 2 trees"));
-  EXPECT_THAT(town.problems().at(210), HasSubstr("a.csv: 1 trees"));
-  EXPECT_THAT(town.problems().at(210), HasSubstr("b.csv: 1 trees"));
+  EXPECT_THAT(town.problems().at(123), HasSubstr("b.csv: 2 of 3 trees have"));
+  EXPECT_THAT(town.problems().at(210), HasSubstr("a.csv: 1 of 4 trees stand"));
+  EXPECT_THAT(town.problems().at(210), HasSubstr("b.csv: 1 of 3 trees stand"));
   EXPECT_EQ(town.problems().size(), 2U);
 }
 
