@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/pybind11.h>
 
+#include "farlod/points.hpp"
 #include "farlod/version.hpp"
 #include "python/binding/exceptions.hpp"
 #include "python/runtime_module/evaluation.hpp"
@@ -13,6 +14,7 @@
 PYBIND11_MODULE(_runtime, module) {
   farlod::translate_exceptions();
   module.attr("version") = farlod::software_version;
+  module.attr("answered_beyond_grid_m") = farlod::answered_beyond_grid_m;
   farlod::add_package(module);
   farlod::add_settings(module);
   farlod::add_weather(module);

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from farlod import _arguments
+from farlod._modules import runtime as _runtime
 from farlod.errors import InvalidArgument
 
 if TYPE_CHECKING:
@@ -89,10 +90,6 @@ def _facing(normals: Any, count: int, convergence_deg: float) -> tuple[Floats, F
     return azimuth, np.degrees(np.arctan2(level, up))
 
 
-#: How far from the grid points have answers, as the library has it (answered_beyond_grid_m).
-_ANSWERED_BEYOND_GRID_M = 200.0
-
-
 def _advice(x: Floats, y: Floats, has_crs: bool) -> str:
     if has_crs:
         return "check the CRS of the GeoSeries"
@@ -106,7 +103,7 @@ def _advice(x: Floats, y: Floats, has_crs: bool) -> str:
 
 def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str, *, has_crs: bool = False) -> None:
     """Refuses points that all lie beyond the city, where none has an answer, and warns of some that do."""
-    farthest_m, farthest_on_maps_m, reach_m = 100_000.0, 1e8, _ANSWERED_BEYOND_GRID_M
+    farthest_m, farthest_on_maps_m, reach_m = 100_000.0, 1e8, _runtime.answered_beyond_grid_m
     west, south, east, north = bounds
     # What lies nowhere on Earth is told by the library, with its index
     if x.size == 0 or not (np.abs(x) + np.abs(y) < farthest_on_maps_m).all():

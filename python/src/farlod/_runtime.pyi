@@ -11,6 +11,7 @@ import numpy.typing as npt
 _Floats32 = npt.NDArray[np.float32]
 _Floats64 = npt.NDArray[np.float64]
 
+answered_beyond_grid_m: float
 version: str
 words: dict[str, tuple[str, ...]]
 
