@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -60,9 +61,9 @@ NearestHeight nearest_height(const Network& network, Point2d p, Network::Face_ha
   return nearest;
 }
 
-/// Heights along the border of the rectangle, and in corners that lie within the network. All are computed before the first is
-/// inserted, so that none is the nearest point of another one. What lies within the network does not change it.
-std::vector<Kernel::Point_3> frame_of(const Network& network, const Box2d& rectangle, const GroundHeightAt& height_at) {
+/// Nodes along the border of the rectangle. All are computed before the first is inserted, so that none is the nearest point of
+/// another one.
+std::vector<Point3d> nodes_beyond(const Network& network, const Box2d& rectangle) {
   Network::Face_handle last;
   const auto nearest_beyond = [&](Point2d p) -> std::optional<NearestHeight> {
     if (network.dimension() < 2) return nearest_height(network, p);
@@ -70,13 +71,50 @@ std::vector<Kernel::Point_3> frame_of(const Network& network, const Box2d& recta
     if (!network.is_infinite(last)) return std::nullopt;
     return nearest_height(network, p, last);
   };
-  std::vector<Kernel::Point_3> frame;
-  for (const Point3d& node : border_nodes(rectangle, nearest_beyond)) frame.emplace_back(node.x, node.y, node.z);
-  const auto& [low, high] = rectangle;
-  for (const Point2d c : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    if (!nearest_beyond(c)) frame.emplace_back(c.x, c.y, height_at(c));
-  return frame;
+  return border_nodes(rectangle, nearest_beyond);
 }
+
+/// A network that goes on beyond the hull of its points. Its faces between them stay as they are, where Network::insert would
+/// flip edges of the hull: a constrained Delaunay triangulation, of which these edges are the constraints.
+class NetworkBeyond {
+ public:
+  explicit NetworkBeyond(Network& network) : network_(network) {}
+
+  void insert(const Point3d& node) {
+    const auto before = network_.number_of_vertices();
+    const Network::Vertex_handle v = static_cast<CGAL::Triangulation_2<Plan>&>(network_).insert({node.x, node.y, node.z});
+    // There may be a point at this place
+    if (network_.number_of_vertices() == before) return;
+    nodes_.insert(v);
+    if (network_.dimension() < 2) return;
+    std::vector<Network::Face_handle> faces;
+    Network::Face_circulator face = network_.incident_faces(v);
+    const Network::Face_circulator first = face;
+    do faces.push_back(face);
+    while (++face != first);
+    for (const Network::Face_handle f : faces) flip_as_far_as_needed(f, v);
+  }
+
+ private:
+  /// Lies beyond the hull, which is convex: one of its vertices does.
+  [[nodiscard]] bool is_beyond(Network::Face_handle face) const {
+    return !network_.is_infinite(face) &&
+           (nodes_.contains(face->vertex(0)) || nodes_.contains(face->vertex(1)) || nodes_.contains(face->vertex(2)));
+  }
+  /// Flips the edge opposite to a new vertex if the circle around the face behind it contains that, and then the next ones.
+  void flip_as_far_as_needed(Network::Face_handle face, Network::Vertex_handle v) {
+    const int n = face->index(v);
+    const Network::Face_handle behind = face->neighbor(n);
+    if (!is_beyond(face) || !is_beyond(behind)) return;
+    if (network_.side_of_oriented_circle(behind, v->point(), true) != CGAL::ON_POSITIVE_SIDE) return;
+    network_.flip(face, n);
+    flip_as_far_as_needed(face, v);
+    flip_as_far_as_needed(behind, v);
+  }
+
+  Network& network_;
+  std::set<Network::Vertex_handle> nodes_;
+};
 
 /// What Network::insert does with a range, but for the copy that it makes of the points. Neighbors come one after the other, so
 /// that what is in use of the network is a small part of it.
@@ -130,9 +168,8 @@ Ground::Ground(PagedArray<Point3d> points, const Box2d& rectangle, GroundExtent 
   Network& network = impl_->network;
   insert_all(std::move(input), network);
   if (extent == GroundExtent::points) return;
-  // CGAL ignores a node at the place of an existing point
-  for (const Kernel::Point_3& node : frame_of(network, rectangle, [this](Point2d p) { return height_at(p); }))
-    network.insert(node);
+  NetworkBeyond beyond(network);
+  for (const Point3d& node : nodes_beyond(network, rectangle)) beyond.insert(node);
 }
 Ground::Ground(const TerrainRaster& surface_model, PixelSteps steps, const GridRotation& rotation)
     : impl_(std::make_unique<Impl>()) {

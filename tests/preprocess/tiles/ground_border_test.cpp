@@ -71,6 +71,17 @@ TEST(GroundBorder, HasNoNodesBetweenKnownHeights) {
   for (const Point3d& p : nodes) EXPECT_GT(p.x, 500.0);
 }
 
+/// Two kerbs across a slope: the ground between them is a plane, however near the border is to its long edges.
+TEST(GroundBorder, LeavesWhatIsKnownAsItIs) {
+  const auto height_m = [](double x) { return 100.0 + 0.25 * x; };
+  std::vector<Point3d> kerbs;
+  for (const double x : {1.0, 999.0})
+    for (const double y : {2.0, 997.0}) kerbs.push_back({x, y, height_m(x)});
+  const Ground ground(kerbs, square_km);
+  for (const double x : {1.0, 30.0, 500.0, 998.0})
+    for (const double y : {2.5, 300.0, 996.5}) EXPECT_NEAR(ground.height_at({x, y}), height_m(x), 1e-9) << x << ' ' << y;
+}
+
 TEST(GroundBorder, MakesNoRampBesideAHill) {
   const Ground ground(hill, square_km);
   for (double x = 950.0; x <= 1000.0; x += 5.0) EXPECT_NEAR(ground.height_at({x, 500.0}), 600.0, 1.0) << x;
