@@ -63,6 +63,21 @@ Json json_of(const PeriodLight& light, const Light& asked, const LightSource& so
           {"remarks", light.remarks}};
 }
 
+Json json_of(const WrittenMatrix& matrix, double threshold) {
+  const MatrixFigures& figures = matrix.figures;
+  return {{"surfaces", matrix.surfaces},
+          {"columns", matrix.columns},
+          {"entries", matrix.entries},
+          {"receivers", figures.receivers},
+          {"rays", figures.rays},
+          {"threshold", threshold},
+          {"reciprocity", {{"mean", figures.reciprocity_mean}, {"max", figures.reciprocity_max}}},
+          {"closure", {{"mean", figures.closure_mean}, {"max", figures.closure_max}}},
+          {"dropped", {{"mean", figures.dropped_mean}, {"max", figures.dropped_max}}},
+          {"divided_rows", figures.divided_rows},
+          {"seconds", matrix.seconds}};
+}
+
 void add_accuracy_and_totals(const EvaluationSummary& run, Json& j) {
   if (run.bounds) j["bounds"] = json_of(*run.bounds);
   if (run.errors) j["verify"] = json_of(*run.errors);
@@ -110,6 +125,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);
   add_accuracy_and_totals(run, j);
+  if (written.matrix) j["matrix"] = json_of(*written.matrix, options.matrix.threshold);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   if (!written.notes.empty()) j["notes"] = written.notes;
