@@ -20,8 +20,10 @@ std::span<const ViewShare> of_surfaces(std::span<const ViewShare> shares, std::s
   return shares.first(static_cast<std::size_t>(end - shares.begin()));
 }
 
-/// Receivers, and so rays, to the area.
-double density_of(const FoundRow& row) { return static_cast<double>(row.receivers) / row.area_m2; }
+/// Receivers, and so rays, to the area. A surface that is seen may have none, where all of them are covered.
+double density_of(const FoundRow& row) {
+  return row.receivers == 0 ? 0.0 : static_cast<double>(row.receivers) / row.area_m2;
+}
 
 }  // namespace
 
