@@ -74,16 +74,14 @@ struct ViewFactorMatrix {
   MatrixFigures figures;
 
   [[nodiscard]] std::size_t column_count() const { return surfaces + ground.size() + matrix_rest_words.size(); }
-  [[nodiscard]] std::size_t column_of(MatrixRest rest) const {
-    return surfaces + ground.size() + static_cast<std::size_t>(rest);
-  }
+  [[nodiscard]] std::size_t column_of(MatrixRest rest) const { return surfaces + ground.size() + static_cast<std::size_t>(rest); }
 };
 
-/// Traces rays from the receivers of all surfaces that have a row, wherever these receivers are, against the whole city, and makes
-/// the matrix reciprocal: two surfaces that see each other have the mean of what the rays of both found, weighted by their rays,
-/// and what is no surface takes up what that changes. `means` are those that evaluate_surfaces() gave for the same package and
-/// `surfaces`. Of `evaluation`, rays, directions and the crowns' canopy count. Throws InvalidArgument, Cancelled, LimitReached,
-/// PackageUnusable, PackageDamaged.
+/// Traces rays from the receivers of all surfaces that have a row, wherever these receivers are, against the whole city, and
+/// makes the matrix reciprocal: two surfaces that see each other have the mean of what the rays of both found, weighted by their
+/// rays, and what is no surface takes up what that changes. `means` are those that evaluate_surfaces() gave for the same package
+/// and `surfaces`. Of `evaluation`, rays, directions and the crowns' canopy count. Throws InvalidArgument, Cancelled,
+/// LimitReached, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT ViewFactorMatrix view_factor_matrix(const Package& package, const SurfaceSettings& surfaces,
                                                                 std::span<const SurfaceMean> means,
                                                                 const MatrixSettings& matrix = {},

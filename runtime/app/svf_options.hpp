@@ -39,7 +39,7 @@ struct SvfOptions {
   std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;
-  std::filesystem::path city_file;  ///< or a folder: what comes back with the values of surfaces; empty: tables are written
+  std::filesystem::path city_file;    ///< or a folder: what comes back with the values of surfaces; empty: tables are written
   std::filesystem::path matrix_file;  ///< of view factors between surfaces; empty: none is computed
   MatrixSettings matrix;
   RequestedPoint at;

@@ -5,8 +5,7 @@
 
 namespace farlod {
 
-WrittenMatrix write_matrix(const Package& package, const SvfOptions& options, const SurfaceMeans& means,
-                           const RunSettings& run) {
+WrittenMatrix write_matrix(const Package& package, const SvfOptions& options, const SurfaceMeans& means, const RunSettings& run) {
   WrittenMatrix written;
   written.seconds = seconds_of([&] {
     const ViewFactorMatrix matrix =

@@ -21,9 +21,7 @@ std::span<const ViewShare> of_surfaces(std::span<const ViewShare> shares, std::s
 }
 
 /// Receivers, and so rays, to the area. A surface that is seen may have none, where all of them are covered.
-double density_of(const FoundRow& row) {
-  return row.receivers == 0 ? 0.0 : static_cast<double>(row.receivers) / row.area_m2;
-}
+double density_of(const FoundRow& row) { return row.receivers == 0 ? 0.0 : static_cast<double>(row.receivers) / row.area_m2; }
 
 }  // namespace
 
@@ -49,8 +47,7 @@ void ReciprocalRows::add_pair(std::size_t n, ViewShare found, ViewShare by_other
   const double rays = static_cast<double>(here.receivers) * of_here + static_cast<double>(there.receivers) * of_there;
   row.push_back({found.column, static_cast<float>(rays / (density_of(here) + density_of(there)) / here.area_m2)});
   if (found.column <= n) return;
-  const double deviation =
-      std::abs(here.area_m2 * of_here - there.area_m2 * of_there) / std::max(here.area_m2, there.area_m2);
+  const double deviation = std::abs(here.area_m2 * of_here - there.area_m2 * of_there) / std::max(here.area_m2, there.area_m2);
   ++pairs_;
   reciprocity_sum_ += deviation;
   figures_.reciprocity_max = std::max(figures_.reciprocity_max, deviation);
@@ -90,8 +87,7 @@ void ReciprocalRows::close(const FoundRow& found, double surfaces_before, std::v
 
 MatrixFigures ReciprocalRows::figures() const {
   MatrixFigures figures = figures_;
-  const auto with_receivers =
-      std::ranges::count_if(rows_, [](const FoundRow& row) { return row.receivers > 0; });
+  const auto with_receivers = std::ranges::count_if(rows_, [](const FoundRow& row) { return row.receivers > 0; });
   figures.reciprocity_mean = pairs_ > 0 ? reciprocity_sum_ / static_cast<double>(pairs_) : 0.0;
   figures.closure_mean = with_receivers > 0 ? closure_sum_ / static_cast<double>(with_receivers) : 0.0;
   for (const FoundRow& row : rows_) figures.receivers += row.receivers;

@@ -31,9 +31,8 @@ SeenColumns::SeenColumns(const PackageReader& package, const SurfaceRows& rows, 
       if (surface.kind() == SurfaceKind::ground)
         add(run.end - begin, {{}, columns.ground(n)});
       else
-        add(run.end - begin,
-            {surface.normal().direction(),
-             rows.find(block.id_of(block.buildings()[surface.building]), surface.number).value_or(other_)});
+        add(run.end - begin, {surface.normal().direction(),
+                              rows.find(block.id_of(block.buildings()[surface.building]), surface.number).value_or(other_)});
       begin = run.end;
     }
   }

@@ -25,9 +25,7 @@ struct MatrixColumns {
 
   [[nodiscard]] std::uint32_t ground(std::size_t cell) const { return surfaces + static_cast<std::uint32_t>(cell); }
   [[nodiscard]] std::uint32_t rest(MatrixRest what) const { return surfaces + cells + static_cast<std::uint32_t>(what); }
-  [[nodiscard]] std::uint32_t count() const {
-    return surfaces + cells + static_cast<std::uint32_t>(matrix_rest_words.size());
-  }
+  [[nodiscard]] std::uint32_t count() const { return surfaces + cells + static_cast<std::uint32_t>(matrix_rest_words.size()); }
 };
 
 /// The rows of surfaces by what names them.

@@ -150,10 +150,10 @@ void require_memory_of_matrix(const PackageReader& package, std::span<const Surf
   constexpr double entries_of_row = 250, bytes_of_entry = 3 * sizeof(ViewShare);
   double receivers = 0.0;
   for (const SurfaceMean& mean : means) receivers += static_cast<double>(mean.receivers);
-  (void)require_memory(package.manifest(), settings,
-                       {static_cast<double>(means.size()) * entries_of_row * bytes_of_entry +
-                            2.0 * sizeof(ReceiverInScene) * receivers,
-                        0.0, true});
+  (void)require_memory(
+      package.manifest(), settings,
+      {static_cast<double>(means.size()) * entries_of_row * bytes_of_entry + 2.0 * sizeof(ReceiverInScene) * receivers, 0.0,
+       true});
 }
 
 }  // namespace
