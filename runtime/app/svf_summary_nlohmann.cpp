@@ -63,14 +63,14 @@ Json json_of(const PeriodLight& light, const Light& asked, const LightSource& so
           {"remarks", light.remarks}};
 }
 
-Json json_of(const WrittenMatrix& matrix, double threshold) {
+Json json_of(const WrittenMatrix& matrix) {
   const MatrixFigures& figures = matrix.figures;
   return {{"surfaces", matrix.surfaces},
           {"columns", matrix.columns},
           {"entries", matrix.entries},
           {"receivers", figures.receivers},
           {"rays", figures.rays},
-          {"threshold", threshold},
+          {"threshold", matrix.threshold},
           {"reciprocity", {{"mean", figures.reciprocity_mean}, {"max", figures.reciprocity_max}}},
           {"closure", {{"mean", figures.closure_mean}, {"max", figures.closure_max}}},
           {"dropped", {{"mean", figures.dropped_mean}, {"max", figures.dropped_max}}},
@@ -95,6 +95,7 @@ Json values_json(const EvaluationSummary& run) {
 }
 
 void add_further(const WrittenRun& written, Json& j) {
+  if (written.matrix) j["matrix"] = json_of(*written.matrix);
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   const auto& ranges = written.summary.further;
   for (std::size_t k = 0; k < ranges.size(); ++k)
@@ -125,7 +126,6 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);
   add_accuracy_and_totals(run, j);
-  if (written.matrix) j["matrix"] = json_of(*written.matrix, options.matrix.threshold);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   if (!written.notes.empty()) j["notes"] = written.notes;

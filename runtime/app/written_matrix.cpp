@@ -7,6 +7,7 @@ namespace farlod {
 
 WrittenMatrix write_matrix(const Package& package, const SvfOptions& options, const SurfaceMeans& means, const RunSettings& run) {
   WrittenMatrix written;
+  written.threshold = options.matrix.threshold;
   written.seconds = seconds_of([&] {
     const ViewFactorMatrix matrix =
         view_factor_matrix(package, options.surfaces, means.surfaces, options.matrix, options.evaluation, run);

@@ -23,6 +23,7 @@ namespace farlod {
 /// What became of a matrix of view factors.
 struct WrittenMatrix {
   std::size_t surfaces = 0, columns = 0, entries = 0;
+  double threshold = 0.0;
   MatrixFigures figures;
   double seconds = 0.0;
 };

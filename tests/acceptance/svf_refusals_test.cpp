@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         wrong_usage("OfSolidAngles", "a.farlod -o o.csv --surfaces all --matrix m.npz --sky solid", {"--matrix", "--sky"}),
         wrong_usage("OfAnEstimate", "a.farlod -o o.csv --surfaces all --matrix m.npz --dry-run", {"--matrix", "--dry-run"}),
         wrong_usage("OfAShard", "a.farlod -o o.csv --surfaces all --matrix m.npz --shard 0/2", {"--matrix", "--merge"}),
-        unusable("OverItsTable", "a.farlod -o o.npz.csv --surfaces all --matrix lost/m.npz", {"lost/m.npz", "no folder lost"})),
+        unusable("NoFolder", "a.farlod -o o.csv --surfaces all --matrix lost/m.npz", {"lost/m.npz", "no folder lost"})),
     name_of_refused);
 
 /// Each format with the receivers that it is not for.

@@ -20,7 +20,9 @@
 #include "farlod/problem.hpp"
 #include "package/package_reader.hpp"
 #include "tests/scenes/footprints_text.hpp"
+#include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/planted_crowns.hpp"
+#include "tests/scenes/scene_builder.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 // What surfaces see of each other, against closed forms: walls that face each other near and far, walls of an inner corner, and
@@ -71,6 +73,7 @@ class MatrixTown {
     Report report;
     (void)pack(settings, report);
   }
+  explicit MatrixTown(const CityModel& city) { scenes::pack_city(city, scenes::grid_covering(city, {}, 30.0, 3), folder()); }
   [[nodiscard]] std::filesystem::path folder() const { return folder_->file("town"); }
   void evaluate(const MatrixSettings& settings = {.threshold = 0.0}, std::size_t threads = 0) {
     const Package package(folder());
@@ -157,6 +160,16 @@ TEST(ViewFactorMatrix, AHouseFarAwayIsSeenAsItself) {
   const double expected = facing_rectangles(80.0, 60.0, 300.0);
   EXPECT_NEAR(town.view(town.wall("a", 90.0), town.wall("b", 270.0)), expected, 0.02 * expected);
   EXPECT_EQ(town.view(town.wall("a", 90.0), MatrixRest::other), 0.0);
+  // Of all cells, the wall sees most of the ground of that before it
+  std::size_t nearest = 0;
+  const auto from_wall_m = [&](std::size_t n) {
+    return norm(town.matrix.ground[n].centre_projected - matrix_corner - Point2d{20.0, 40.0});
+  };
+  for (std::size_t n = 0; n < town.matrix.ground.size(); ++n)
+    if (from_wall_m(n) < from_wall_m(nearest)) nearest = n;
+  const std::size_t row = town.wall("a", 90.0);
+  for (std::size_t n = 0; n < town.matrix.ground.size(); ++n)
+    EXPECT_LE(town.view(row, town.matrix.surfaces + n), town.view(row, town.matrix.surfaces + nearest)) << n;
   town.expect_closed_and_reciprocal();
 }
 
@@ -255,6 +268,24 @@ TEST(ViewFactorMatrix, ASurfaceWithoutARowIsSomethingElse) {
   town.evaluate();
   const std::size_t low = town.means.front().building == "low" ? 0 : 1;
   EXPECT_NEAR(town.view(low, MatrixRest::other), rectangles_at_an_edge(20.0, 10.0, 27.0), matrix_tolerance);
+}
+
+/// A roof below a slab, which looks up.
+TEST(ViewFactorMatrix, TheBackOfASurfaceIsSomethingElse) {
+  scenes::SceneBuilder builder;
+  builder.add_box({{0, 0}, {10, 20}}, 0.0, 3.0);
+  builder.add_polygon({{0, 0, 9}, {10, 0, 9}, {10, 20, 9}, {0, 20, 9}});
+  MatrixTown town(builder.city());
+  town.evaluate();
+  std::size_t slabs = 0;
+  for (std::size_t n = 0; n < town.matrix.surfaces; ++n) {
+    if (town.means[n].tilt.degrees() > 1.0) continue;
+    const bool is_slab = town.means[n].svf_mean.value() > 0.99;
+    EXPECT_NEAR(town.view(n, MatrixRest::other), is_slab ? 0.0 : facing_rectangles(10.0, 20.0, 6.0), matrix_tolerance);
+    slabs += is_slab ? 1 : 0;
+  }
+  EXPECT_EQ(slabs, 1U);
+  town.expect_closed_and_reciprocal();
 }
 
 /// The columns by class, against Quantities::view_factors, which the same receivers have.
