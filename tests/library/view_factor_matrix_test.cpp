@@ -303,7 +303,10 @@ TEST(ViewFactorMatrix, ClassesAreThoseOfViewFactorsWithTrees) {
 }
 
 TEST(ViewFactorMatrix, IsTheSameForAnyNumberOfThreads) {
-  MatrixTown town(houses_across(12.0, 20.0, 12.0), 7.0);
+  scenes::FootprintsText houses;
+  for (int n = 0; n < 16; ++n)
+    houses.add(building("h" + std::to_string(n), 9.0 + n), matrix_box(n % 4 * 20, n / 4 * 20, n % 4 * 20 + 12, n / 4 * 20 + 14));
+  MatrixTown town(houses.text(), 25.0);
   town.evaluate({}, 1);
   const ViewFactorMatrix alone = town.matrix;
   town.evaluate({}, 5);
