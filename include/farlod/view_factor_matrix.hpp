@@ -62,7 +62,7 @@ struct GroundColumn {
 ///
 ///   (1) entry ij is the share of the view of surface i, weighted by the cosine, that surface j fills
 ///   (2) each row adds up to 1, but for the rounding of floats; a surface none of whose receivers has an answer sees `other`
-///   (3) A_i F_ij = A_j F_ji, with the areas here, where both have entries
+///   (3) A_i F_ij = A_j F_ji, with the areas here, where both have entries and neither row was divided
 ///   (4) the same package and settings give the same matrix, whatever the number of threads
 struct ViewFactorMatrix {
   std::size_t surfaces = 0;

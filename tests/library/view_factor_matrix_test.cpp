@@ -43,8 +43,8 @@ double facing_rectangles(double a, double b, double c) {
 }
 
 /// From a rectangle to another one at a right angle: they share an edge, and are so wide across it.
-double rectangles_at_an_edge(double edge, double from, double to) {
-  const double w = from / edge, h = to / edge, w2 = w * w, h2 = h * h, all = 1.0 + w2 + h2, d = std::sqrt(h2 + w2);
+double rectangles_at_an_edge(double shared, double from, double to) {
+  const double w = from / shared, h = to / shared, w2 = w * w, h2 = h * h, all = 1.0 + w2 + h2, d = std::sqrt(h2 + w2);
   const double logs = std::log((1.0 + w2) * (1.0 + h2) / all) + w2 * std::log(w2 * all / ((1.0 + w2) * (w2 + h2))) +
                       h2 * std::log(h2 * all / ((1.0 + h2) * (w2 + h2)));
   return (w * std::atan(1.0 / w) + h * std::atan(1.0 / h) - d * std::atan(1.0 / d) + 0.25 * logs) / (pi * w);
