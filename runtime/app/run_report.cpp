@@ -76,6 +76,15 @@ void print_estimate(const WrittenRun& written, const RunEstimate& estimate) {
   for (const std::string& note : written.notes) fmt::print("{}\n", note);
 }
 
+void print_matrix(const WrittenMatrix& matrix) {
+  const MatrixFigures& f = matrix.figures;
+  fmt::print(
+      "Matrix: {} surfaces, {} entries, {:.1f} s. Before it was made reciprocal, pairs differed by {:.2g} on average, {:.2g} at "
+      "the most; rows changed by {:.2g}, {:.2g} at the most; below the threshold: {:.2g}, {:.2g} at the most\n",
+      with_commas(matrix.surfaces), with_commas(matrix.entries), matrix.seconds, f.reciprocity_mean, f.reciprocity_max,
+      f.closure_mean, f.closure_max, f.dropped_mean, f.dropped_max);
+}
+
 void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
   const EvaluationSummary& run = written.summary;
   const EvaluationSettings& asked = options.evaluation;
@@ -95,6 +104,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   if (asked.engine == Engine::automatic && asked.max_error && run.by_rays > 0)
     fmt::print("{} of the receivers needed the whole city: their bounds were wider than allowed.\n", run.by_rays);
   print_accuracy(run, asked);
+  if (written.matrix) print_matrix(*written.matrix);
   for (const std::string& note : written.notes) fmt::print("{}\n", note);
   for (const auto& file : written.files) fmt::print("{}\n", file.string());
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/format_advice.hpp"
+#include "app/matrix_options.hpp"
 #include "app/picture_options.hpp"
 #include "app/word_choice.hpp"
 #include "app/work_options.hpp"
@@ -354,6 +355,7 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   o.evaluation.weight = *value_of(sky_weight_words, raw.sky);
   resolve_quantities(raw, o);
   resolve_work(raw.shard, o);
+  resolve_matrix(o);
   require_accuracy(o.evaluation);
 }
 
@@ -369,6 +371,7 @@ struct CommandLine {
     add_placing_options(app, raw, options);
     add_output_options(app, raw);
     add_picture_options(app, raw.pictures, options);
+    add_matrix_options(app, options);
     add_quantity_options(app, raw.quantities);
     add_light_options(app, raw.light, options.surfaces);
     add_sky_options(app, raw, options);

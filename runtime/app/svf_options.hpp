@@ -16,6 +16,7 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/shard.hpp"
 #include "farlod/surfaces.hpp"
+#include "farlod/view_factor_matrix.hpp"
 #include "inputs/requested_points.hpp"
 #include "results/output_format.hpp"
 #include "results/picture/sky_picture.hpp"
@@ -38,7 +39,9 @@ struct SvfOptions {
   std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;
-  std::filesystem::path city_file;  ///< or a folder: what comes back with the values of surfaces; empty: tables are written
+  std::filesystem::path city_file;    ///< or a folder: what comes back with the values of surfaces; empty: tables are written
+  std::filesystem::path matrix_file;  ///< of view factors between surfaces; empty: none is computed
+  MatrixSettings matrix;
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;

@@ -63,6 +63,21 @@ Json json_of(const PeriodLight& light, const Light& asked, const LightSource& so
           {"remarks", light.remarks}};
 }
 
+Json json_of(const WrittenMatrix& matrix) {
+  const MatrixFigures& figures = matrix.figures;
+  return {{"surfaces", matrix.surfaces},
+          {"columns", matrix.columns},
+          {"entries", matrix.entries},
+          {"receivers", figures.receivers},
+          {"rays", figures.rays},
+          {"threshold", matrix.threshold},
+          {"reciprocity", {{"mean", figures.reciprocity_mean}, {"max", figures.reciprocity_max}}},
+          {"closure", {{"mean", figures.closure_mean}, {"max", figures.closure_max}}},
+          {"dropped", {{"mean", figures.dropped_mean}, {"max", figures.dropped_max}}},
+          {"divided_rows", figures.divided_rows},
+          {"seconds", matrix.seconds}};
+}
+
 void add_accuracy_and_totals(const EvaluationSummary& run, Json& j) {
   if (run.bounds) j["bounds"] = json_of(*run.bounds);
   if (run.errors) j["verify"] = json_of(*run.errors);
@@ -80,6 +95,7 @@ Json values_json(const EvaluationSummary& run) {
 }
 
 void add_further(const WrittenRun& written, Json& j) {
+  if (written.matrix) j["matrix"] = json_of(*written.matrix);
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   const auto& ranges = written.summary.further;
   for (std::size_t k = 0; k < ranges.size(); ++k)

@@ -339,10 +339,12 @@ WrittenRun write_surfaces(const Package& package, const SvfOptions& options, con
   const SurfaceMeans means = evaluate_surfaces(package, options.surfaces, options.evaluation, take, run);
   WrittenRun written{means.summary};
   require_answers(written.summary, options, package.description());
+  if (!options.matrix_file.empty()) written.matrix = write_matrix(package, options, means, run);
   written.write_s = seconds_of([&] {
     written.files = writer->commit(means.surfaces, means.buildings);
     histogram.write(options);
   });
+  if (written.matrix) written.files.push_back(options.matrix_file);
   return written;
 }
 

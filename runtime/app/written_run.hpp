@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,10 +13,20 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/package.hpp"
 #include "farlod/run.hpp"
+#include "farlod/surfaces.hpp"
+#include "farlod/view_factor_matrix.hpp"
 #include "farlod/weather.hpp"
 #include "results/picture/error_map.hpp"
 
 namespace farlod {
+
+/// What became of a matrix of view factors.
+struct WrittenMatrix {
+  std::size_t surfaces = 0, columns = 0, entries = 0;
+  double threshold = 0.0;
+  MatrixFigures figures;
+  double seconds = 0.0;
+};
 
 /// What became of a run whose results are in files.
 struct WrittenRun {
@@ -29,6 +40,7 @@ struct WrittenRun {
   std::size_t skipped_features = 0;               ///< of the file of points, which are no points
   std::optional<GreyMap> grey_map = {};           ///< of a raster, if a map of its errors is asked for
   std::optional<PeriodLight> light = {};          ///< what is known of it, but for its intervals, if any is asked for
+  std::optional<WrittenMatrix> matrix = {};       ///< if one is asked for
 };
 
 /// No receiver has an answer: nothing is written.
@@ -41,6 +53,9 @@ class NoAnswer : public InputError {
 [[nodiscard]] WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run);
 [[nodiscard]] WrittenRun write_points(const Package& package, const SvfOptions& options, RunSettings run);
 [[nodiscard]] WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run);
+/// The matrix of view factors between surfaces that have these means: evaluates it, and writes its file.
+[[nodiscard]] WrittenMatrix write_matrix(const Package& package, const SvfOptions& options, const SurfaceMeans& means,
+                                         const RunSettings& run);
 /// The sky above --at, as a picture. Throws InputError where there is no answer.
 [[nodiscard]] WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run);
 

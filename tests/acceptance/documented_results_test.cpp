@@ -80,7 +80,8 @@ TEST_F(DocumentedResults, SummaryOfSvfHasTheDocumentedKeysAndNoOthers) {
   folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --quantity directional --dry-run --summary s.json");
   keys.merge(keys_of(folder.json_of("s.json"), title));
   folder.must(
-      "farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --quantity irradiation --period 2026-06-21 --summary s.json");
+      "farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --quantity irradiation --period 2026-06-21 --matrix m.npz "
+      "--summary s.json");
   keys.merge(keys_of(folder.json_of("s.json"), title));
   EXPECT_EQ(keys, documented_keys(title, false));
 #ifdef FARLOD_WITH_GDAL

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
              "--crown-field",  "--trunk-field",    "--canopy",       "--trunk",        "--canopy-absolute", "--trunk-ratio",
              "--surface"}},
         Program{"farlod-svf", {"--canopy-rule", "--transmissivity", "--extinction", "--leaf-off",     "--help",
-                               "--version",     "--grid",           "--points",     "--surfaces",     "--at",
+                               "--version",     "--grid",           "--points",     "--surfaces",     "--matrix-threshold",
                                "--height",      "--on-surface",     "--spacing",    "--points-crs",   "--points-layer",
                                "--bbox",        "--output",         "--preview",    "--projection",   "--summary",
                                "--engine",      "--rays",           "--directions", "--azimuths",     "--sky",
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                                "--grid-like",   "--dry-run",        "--verify-map", "--histogram",    "--resume",
                                "--shard",       "--merge",          "--weather",    "--period",       "--step",
                                "--linke",       "--sky-model",      "--albedo",     "--by",           "--irradiation-threshold",
-                               "--within"}},
+                               "--within",      "--matrix",         "--at"}},
         Program{"farlod-view",
                 {"--help", "--version", "--port", "--listen", "--export", "--summary", "--quiet", "--threads", "--config"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"

@@ -288,5 +288,24 @@ INSTANTIATE_TEST_SUITE_P(
                     Pair{"WithinACell", {{"low", {-10.0, 0.0}, 20.0, 10.0}, {"high", {15.0, 0.0}, 30.0, 30.0}}}),
     [](const auto& pair) { return pair.param.name; });
 
+TEST_F(PackedTown, AMatrixHasARowForEachRowOfItsTableWhateverTheThreads) {
+  const std::string run = "farlod-svf a.farlod --surfaces all --spacing 5 --rays 200 --summary s.json ";
+  folder.must(run + "-o o.csv --matrix one.npz --threads 1");
+  const nlohmann::json matrix = folder.json_of("s.json").at("matrix");
+  const CsvTable surfaces = table("o.surfaces.csv");
+  EXPECT_EQ(matrix.at("surfaces"), surfaces.size());
+  EXPECT_EQ(matrix.at("rays"), 200);
+  EXPECT_EQ(matrix.at("threshold"), 1e-4);
+  double answered = 0.0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) answered += surfaces.number(n, "receivers") - surfaces.number(n, "nodata");
+  EXPECT_EQ(matrix.at("receivers"), answered);
+  EXPECT_GT(matrix.at("entries"), 2 * surfaces.size());
+  folder.must(run + "-o p.csv --matrix four.npz --threads 4");
+  EXPECT_TRUE(folder.text_of("one.npz") == folder.text_of("four.npz"));
+  EXPECT_TRUE(folder.text_of("o.surfaces.csv") == folder.text_of("p.surfaces.csv"));
+  folder.must(run + "-o q.csv --matrix coarse.npz --matrix-threshold 0.5");
+  EXPECT_LT(folder.json_of("s.json").at("matrix").at("entries"), matrix.at("entries"));
+}
+
 }  // namespace
 }  // namespace farlod::acceptance

@@ -102,6 +102,22 @@ INSTANTIATE_TEST_SUITE_P(
                  {"town.geojson has no places for attributes", "CityGML and CityJSON"})),
     name_of_refused);
 
+INSTANTIATE_TEST_SUITE_P(
+    Matrix, SvfRefuses,
+    testing::Values(
+        wrong_grid("WithoutSurfaces", "--matrix m.npz", {"--matrix", "--surfaces"}),
+        wrong_usage("ThresholdOfNothing", "a.farlod -o o.csv --surfaces all --matrix-threshold 0.1", {"--matrix"}),
+        wrong_usage("ThresholdAboveAll", "a.farlod -o o.csv --surfaces all --matrix m.npz --matrix-threshold 2",
+                    {"--matrix-threshold", "from 0 to 1"}),
+        wrong_usage("AnotherEnding", "a.farlod -o o.csv --surfaces all --matrix m.nc", {"--matrix", "ends in .npz"}),
+        wrong_usage("OfACityFile", "a.farlod -o o.city.json --surfaces all --city town.geojson --matrix m.npz",
+                    {"--matrix", "--city"}),
+        wrong_usage("OfSolidAngles", "a.farlod -o o.csv --surfaces all --matrix m.npz --sky solid", {"--matrix", "--sky"}),
+        wrong_usage("OfAnEstimate", "a.farlod -o o.csv --surfaces all --matrix m.npz --dry-run", {"--matrix", "--dry-run"}),
+        wrong_usage("OfAShard", "a.farlod -o o.csv --surfaces all --matrix m.npz --shard 0/2", {"--matrix", "--merge"}),
+        unusable("NoFolder", "a.farlod -o o.csv --surfaces all --matrix lost/m.npz", {"lost/m.npz", "no folder lost"})),
+    name_of_refused);
+
 /// Each format with the receivers that it is not for.
 std::vector<RefusedCommand> formats_that_do_not_fit() {
   const std::string tables = endings_where([](const OutputFormat& f) { return f.holds_tables(); });

@@ -13,6 +13,7 @@
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
+#include "farlod/view_factor_matrix.hpp"
 #include "tests/library/packed_sample.hpp"
 
 namespace farlod::library {
@@ -45,6 +46,7 @@ struct Arguments {
   CellPlace cell;
   CellRectangle cells;
   SurfaceSettings surfaces{SurfaceChoice::all, 20.0};
+  MatrixSettings matrix;
   EvaluationSettings settings;
   RunSettings run;
   OnRasterTile on_tile = [](const RasterTile&) {};
@@ -74,6 +76,8 @@ inline const Named window{
     }};
 inline const Named surfaces{"surfaces",
                             [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
+inline const Named matrix{"matrix",
+                          [](Arguments& a) { (void)view_factor_matrix(a.package, a.surfaces, {}, a.matrix, a.settings, a.run); }};
 inline const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};
 inline const Named inventory{"inventory", [](Arguments& a) { (void)inventory_of(a.package); }};
 inline const Named height_range{"height range", [](Arguments& a) { (void)heights_of(a.package); }};

@@ -247,7 +247,7 @@ void add_rasters(Cases& cases) {
 
 void add_surfaces(Cases& cases) {
   for (const double s : {nan, infinity, 0.0, -1.0, 0.01, 1e4})
-    cases.add({surfaces}, "spacing " + std::to_string(s), [s](Arguments& a) { a.surfaces.spacing_m = s; });
+    cases.add({surfaces, matrix}, "spacing " + std::to_string(s), [s](Arguments& a) { a.surfaces.spacing_m = s; });
   cases.add({surfaces}, "a threshold of nothing", [](Arguments& a) { a.surfaces.irradiation_threshold_kwh_m2 = 800.0; });
   for (const double t : {nan, infinity, -1.0, 100'001.0})
     cases.add({surfaces}, "threshold " + std::to_string(t), [t](Arguments& a) {
@@ -255,9 +255,24 @@ void add_surfaces(Cases& cases) {
       a.settings.further.light.emplace();
       a.surfaces.irradiation_threshold_kwh_m2 = t;
     });
-  cases.add({surfaces}, "no such choice", [](Arguments& a) { a.surfaces.choice = static_cast<SurfaceChoice>(3); });
+  cases.add({surfaces, matrix}, "no such choice", [](Arguments& a) { a.surfaces.choice = static_cast<SurfaceChoice>(3); });
   cases.add({surfaces}, "who takes the points throws", ends::with_what_was_thrown,
             [](Arguments& a) { a.on_points = [](std::size_t, std::span<const SurfacePoint>) { throw Thrown("points"); }; });
+}
+
+void add_matrix(Cases& cases) {
+  for (const double t : {nan, -0.1, 1.1})
+    cases.add({matrix}, "threshold " + std::to_string(t), [t](Arguments& a) { a.matrix.threshold = t; });
+  cases.add({matrix}, "weighted by solid angle", [](Arguments& a) { a.settings.weight = SkyWeight::solid_angle; });
+  cases.add({matrix}, "no rays", [](Arguments& a) { a.settings.rays = 0; });
+  cases.add({matrix}, "too small a limit", ends::limit, [](Arguments& a) { a.run.memory_limit_mib = 1; });
+  cases.add({matrix}, "too many threads", [](Arguments& a) { a.run.threads = 5000; });
+  cases.add({matrix}, "a closed package", [](Arguments& a) { a.package.close(); });
+  cases.add({matrix}, "stopped before it began", ends::cancelled, [](Arguments& a) {
+    std::stop_source stop;
+    stop.request_stop();
+    a.run.stop = stop.get_token();
+  });
 }
 
 void add_inspections(Cases& cases) {
@@ -290,6 +305,7 @@ std::vector<WrongCall> all_wrong_calls() {
   add_normals(cases);
   add_rasters(cases);
   add_surfaces(cases);
+  add_matrix(cases);
   return cases.list();
 }
 

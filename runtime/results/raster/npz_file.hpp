@@ -14,7 +14,8 @@
 
 namespace farlod {
 
-/// An array of unsigned bytes, rows × columns × depth, whose rows are asked for when they are written.
+/// An array of unsigned bytes, rows × columns × depth, whose rows are asked for when they are written. One of another type or
+/// shape has rows of as many bytes.
 struct NpzArray {
   std::string name;
   std::size_t rows = 0, columns = 0, depth = 0;
@@ -22,6 +23,8 @@ struct NpzArray {
   std::function<void(std::size_t first_row, std::size_t end_row)> load;
   /// The columns · depth values of one of these rows. Called by several threads at once.
   std::function<void(std::size_t row, std::span<std::uint8_t> values)> fill;
+  std::string type = "|u1";  ///< as NumPy writes it
+  std::string shape = {};    ///< the same, such as "(3,)"; empty: (rows, columns, depth)
 
   [[nodiscard]] std::size_t row_bytes() const { return columns * depth; }
 };

@@ -19,8 +19,10 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// The header of an array, whose length with it is a multiple of 64.
 Bytes npy_header(const NpzArray& array) {
-  std::string text = "{'descr': '|u1', 'fortran_order': False, 'shape': (" + std::to_string(array.rows) + ", " +
-                     std::to_string(array.columns) + ", " + std::to_string(array.depth) + "), }";
+  const std::string of_bytes =
+      "(" + std::to_string(array.rows) + ", " + std::to_string(array.columns) + ", " + std::to_string(array.depth) + ")";
+  std::string text = "{'descr': '" + array.type +
+                     "', 'fortran_order': False, 'shape': " + (array.shape.empty() ? of_bytes : array.shape) + ", }";
   constexpr std::size_t before = 10, multiple = 64;
   text.append(multiple - 1 - (before + text.size()) % multiple, ' ').append("\n");
   // The magic word, version 1.0, and the length of the text, little-endian
