@@ -11,6 +11,7 @@
 #include "farlod/inspection.hpp"
 #include "farlod/package.hpp"
 #include "farlod/point.hpp"
+#include "farlod/quantities.hpp"
 #include "farlod/run.hpp"
 
 namespace farlod {
@@ -37,6 +38,13 @@ struct CellAmounts {
   double building_height_mean_m = 0.0, building_height_std_m = 0.0;
 };
 
+/// What a cell of a package with trees has of crowns. Trunks do not count.
+struct CellVegetation {
+  double plan_area_m2 = 0.0;   ///< below crowns, on the ground or above roofs; what several cover counts once
+  std::size_t count = 0;       ///< crowns whose axes stand in the cell
+  double height_mean_m = 0.0;  ///< of their tops above the ground below their axes; 0 without crowns
+};
+
 /// Roughness length and zero-plane displacement height for wind.
 struct Roughness {
   double length_m = 0.0, displacement_m = 0.0;
@@ -48,6 +56,8 @@ struct CellMorphology {
   CellPlace cell;
   std::array<Point2d, 4> corners_projected;  ///< counter-clockwise from the south-western one, easting and northing
   CellAmounts amounts;
+  std::optional<CellVegetation>
+      vegetation;  ///< none where the package has no crowns at all: nobody said that no trees stand there
 
   [[nodiscard]] double lambda_p() const { return amounts.building_plan_area_m2 / amounts.plan_area_m2; }
   [[nodiscard]] double lambda_f(std::size_t wind) const { return amounts.frontal_area_m2[wind] / amounts.plan_area_m2; }
@@ -59,6 +69,8 @@ struct CellMorphology {
   /// The ratio of the canyon that has as much wall and ground (Masson 2000): half the wall area over the plan area without
   /// buildings.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_to_width() const;
+  /// The share of the plan area below crowns.
+  [[nodiscard]] FARLOD_EXPORT std::optional<double> vegetation_fraction() const;
   /// Mean and standard deviation over the building plan area.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_mean_m() const;
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_std_m() const;
@@ -72,5 +84,9 @@ struct CellMorphology {
 /// The cells of a package, row by row from the south-west. Throws InvalidArgument where the package does not tell buildings from
 /// ground (a surface model), or has not cut them at the borders of cells; Cancelled, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT std::vector<CellMorphology> morphology_of_cells(const Package& package, const RunSettings& run = {});
+
+/// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell.
+[[nodiscard]] FARLOD_EXPORT std::vector<ColumnDescription> morphology_columns();
+[[nodiscard]] FARLOD_EXPORT std::vector<std::optional<double>> morphology_values(const CellMorphology& cell);
 
 }  // namespace farlod

@@ -9,6 +9,7 @@
 #include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "run/cell_amounts.hpp"
+#include "run/cell_crowns.hpp"
 #include "run/cell_faces.hpp"
 #include "run/cells_in_parallel.hpp"
 #include "run/facing.hpp"
@@ -41,7 +42,9 @@ CellMorphology morphology_of(const PackageReader& reader, Cell cell, const WindD
   const auto [low, high] = m.grid.square_of(cell);
   for (std::size_t n = 0; const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
     result.corners_projected[n++] = horizontal(m.projected_from_grid({corner.x, corner.y, 0.0}));
-  result.amounts = amounts_of(faces_of(reader, cell), winds);
+  const CellFaces faces = faces_of(reader, cell);
+  result.amounts = amounts_of(faces, winds);
+  result.vegetation = vegetation_of(reader, cell, faces);
   result.amounts.plan_area_m2 = m.grid.cell_edge_m * m.grid.cell_edge_m;
   return result;
 }
@@ -63,6 +66,10 @@ std::optional<double> CellMorphology::height_to_width() const {
   constexpr double least_ground_share = 1e-6;
   if (lambda_p() > 1.0 - least_ground_share) return std::nullopt;
   return 0.5 * amounts.wall_area_m2 / (amounts.plan_area_m2 - amounts.building_plan_area_m2);
+}
+
+std::optional<double> CellMorphology::vegetation_fraction() const {
+  return vegetation ? std::optional(vegetation->plan_area_m2 / amounts.plan_area_m2) : std::nullopt;
 }
 
 std::optional<double> CellMorphology::height_mean_m() const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <string>
@@ -14,6 +15,7 @@
 #include "farlod/error.hpp"
 #include "tests/library/packed_sample.hpp"
 #include "tests/scenes/footprints_text.hpp"
+#include "tests/scenes/planted_crowns.hpp"
 
 namespace farlod::library {
 namespace {
@@ -35,6 +37,10 @@ class FormTown {
     return morphology_of_cells(packed(cell_edge_m, align));
   }
   [[nodiscard]] Package packed(double cell_edge_m, AlignMode align, Assign assign = Assign::clip) const {
+    return Package(folder_of(cell_edge_m, align, assign));
+  }
+  /// The folder of a new package.
+  [[nodiscard]] std::filesystem::path folder_of(double cell_edge_m, AlignMode align, Assign assign = Assign::clip) const {
     std::ofstream(folder_.file("town.geojson")) << text_;
     PackSettings settings;
     settings.inputs = {folder_.file("town.geojson")};
@@ -44,7 +50,7 @@ class FormTown {
     settings.assign = assign;
     Report report;
     (void)pack(settings, report);
-    return Package(settings.output);
+    return settings.output;
   }
 
  private:
@@ -202,6 +208,64 @@ TEST(Morphology, BuildingsOfACellCountOnceEach) {
     EXPECT_NEAR(*cell.height_mean_m(), (600.0 * 10.0 + 200.0 * 30.0) / 800.0, form_rounding_m2);
   }
   EXPECT_EQ(built, 4U);
+}
+
+/// Two upright cylinders of 5 m radius and 8 m height whose axes are 5 m apart, and a square of 4 m turned by 30°, 12 m high.
+std::vector<CellMorphology> cells_with_crowns(double cell_edge_m) {
+  const FormTown town = form_house();
+  const auto folder = town.folder_of(cell_edge_m, AlignMode::none);
+  CrownsOfCity crowns = scenes::crowns_for(folder);
+  const auto [low, high] = crowns.grid().rectangle();
+  // Wherever the cells lie; the ground is at 0
+  const Point2d middle = 0.5 * (low + high);
+  crowns.add(middle, 2.0, 8.0, 5.0, CrownShape::cylinder, Foliage::unknown);
+  crowns.add(middle + Point2d{5.0, 0.0}, 2.0, 8.0, 5.0, CrownShape::cylinder, Foliage::unknown);
+  crowns.add(middle + Point2d{0.0, 20.0}, 2.0, 12.0, 2.0, CrownShape::prism, Foliage::unknown, std::numbers::pi / 6.0);
+  scenes::plant(crowns, folder);
+  return morphology_of_cells(Package(folder));
+}
+
+TEST(Morphology, CrownsCoverTheirUnionInCellsOfAnySize) {
+  constexpr double r = 5.0, d = 5.0;
+  const double lens = 2.0 * r * r * std::acos(d / (2.0 * r)) - 0.5 * d * std::sqrt(4.0 * r * r - d * d);
+  // At each end of a circle, lines 10 cm apart miss or add half a strip as long as the chord there, 2 · sqrt(2 · 5 m · 0.1 m);
+  // at the corners of the square less
+  constexpr double lines_m2 = 4 * 0.5 * 0.1 * 2.0;
+  for (const double cell_edge_m : {7.0, 13.0, 50.0}) {
+    SCOPED_TRACE(cell_edge_m);
+    double area_m2 = 0.0, heights_m = 0.0;
+    std::size_t count = 0;
+    for (const CellMorphology& cell : cells_with_crowns(cell_edge_m)) {
+      ASSERT_TRUE(cell.vegetation);
+      area_m2 += *cell.vegetation_fraction() * cell.amounts.plan_area_m2;
+      heights_m += cell.vegetation->height_mean_m * static_cast<double>(cell.vegetation->count);
+      count += cell.vegetation->count;
+    }
+    EXPECT_NEAR(area_m2, 2.0 * std::numbers::pi * r * r - lens + 16.0, lines_m2);
+    EXPECT_EQ(count, 3U);
+    EXPECT_NEAR(heights_m, 8.0 + 8.0 + 12.0, 1e-3);
+  }
+}
+
+TEST(Morphology, APackageWithoutTreesTellsNothingOfThem) {
+  for (const CellMorphology& cell : form_house().cells(50.0)) EXPECT_FALSE(cell.vegetation || cell.vegetation_fraction());
+}
+
+/// As many values as columns, so that none stands below the name of another one.
+TEST(Morphology, EachColumnHasItsValue) {
+  CellMorphology cell;
+  cell.amounts.plan_area_m2 = 400.0;
+  cell.amounts.frontal_area_m2.back() = 100.0;
+  cell.vegetation = CellVegetation{100.0, 3, 7.5};
+  const auto columns = morphology_columns();
+  const auto values = morphology_values(cell);
+  ASSERT_EQ(columns.size(), values.size());
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    if (columns[n].name == "area_m2") EXPECT_EQ(values[n], 400.0);
+    if (columns[n].name == "vegetation_fraction" || columns[n].name == "lambda_f_337") EXPECT_EQ(values[n], 0.25);
+    if (columns[n].name == "crown_height_mean_m") EXPECT_EQ(values[n], 7.5);
+    if (columns[n].name == "height_mean_m") EXPECT_FALSE(values[n]);
+  }
 }
 
 TEST(Morphology, IsTheSameForAnyNumberOfThreads) {
