@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "farlod/morphology.hpp"
+#include "farlod/package.hpp"
+#include "python/binding/interruptible_run.hpp"
+#include "python/binding/owned_array.hpp"
+#include "python/runtime_module/package.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace farlod {
+namespace {
+
+/// The values of all cells, a column after the other; NaN where a cell has nothing to tell.
+std::vector<std::vector<double>> columns_of(const std::vector<CellMorphology>& cells, std::size_t count) {
+  std::vector<std::vector<double>> columns(count);
+  for (const CellMorphology& cell : cells) {
+    const std::vector<std::optional<double>> values = morphology_values(cell);
+    for (std::size_t n = 0; n < count; ++n) columns[n].push_back(values[n].value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+  return columns;
+}
+
+/// Places and corners of cells, and the columns by their names.
+py::dict cells_in_python(const Package& package, const CallerSettings& caller) {
+  std::vector<CellMorphology> cells;
+  run_interruptibly(caller, [&](const RunSettings& run) { cells = morphology_of_cells(package, run); });
+  std::vector<std::int32_t> i, j;
+  std::vector<double> corners;
+  for (const CellMorphology& cell : cells) {
+    i.push_back(cell.cell.i);
+    j.push_back(cell.cell.j);
+    for (const Point2d corner : cell.corners_projected) corners.insert(corners.end(), {corner.x, corner.y});
+  }
+  const std::vector<ColumnDescription> descriptions = morphology_columns();
+  std::vector<std::vector<double>> values = columns_of(cells, descriptions.size());
+  py::dict columns;
+  for (std::size_t n = 0; n < descriptions.size(); ++n)
+    columns[py::str(descriptions[n].name)] = owned_array(std::move(values[n]));
+  return py::dict("i"_a = owned_array(std::move(i)), "j"_a = owned_array(std::move(j)),
+                  "corners_m"_a = owned_array(std::move(corners), {static_cast<py::ssize_t>(cells.size()), 4, 2}),
+                  "columns"_a = columns);
+}
+
+}  // namespace
+
+void add_cells(py::module_& module) { module.def("cells_of", &cells_in_python, py::arg("package"), py::arg("caller")); }
+
+}  // namespace farlod

@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Urban form of cells: the same table as farlod-info, and the shape of a street."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+from conftest import CANYON_HEIGHT, run_program
+
+import farlod
+
+
+def test_same_table_as_the_program(village: farlod.City, tmp_path: Path) -> None:
+    run_program("farlod-info", village.path, "--cells", tmp_path / "cells.csv")
+    expected = pandas.read_csv(tmp_path / "cells.csv")
+    cells = village.cells()
+    assert cells.columns.drop("geometry").tolist() == expected.columns.tolist()
+    for column in expected.columns:
+        # Tables have millimetres of a length, and six digits of a share
+        np.testing.assert_allclose(cells[column], expected[column].astype(float), rtol=0, atol=6e-4, equal_nan=True, err_msg=column)
+    assert cells.buildings.dtype.kind == "i" and cells.crs == village.crs
+
+
+def test_squares_lie_where_the_columns_say(village: farlod.City) -> None:
+    cells = village.cells()
+    np.testing.assert_allclose(cells.geometry.area, cells.area_m2, rtol=1e-9)
+    np.testing.assert_allclose(cells.geometry.centroid.x, cells.x_m, atol=1e-3)
+    assert cells.geometry.exterior.map(lambda ring: ring.is_ccw).all()
+
+
+def test_walls_of_a_street(canyon: farlod.City) -> None:
+    cells = canyon.cells(threads=1)
+    built = cells[cells.buildings > 0]
+    np.testing.assert_allclose(built.height_mean_m, CANYON_HEIGHT, atol=1e-3)
+    # A city without trees tells nothing of them
+    assert cells.vegetation_fraction.isna().all() and cells.crowns.isna().all()
+
+
+def test_needs_buildings_that_are_cut(tmp_path: Path, village_path: str) -> None:
+    closed = farlod.open(village_path)
+    closed.close()
+    with pytest.raises(farlod.InvalidArgument, match="closed"):
+        closed.cells()
