@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "farlod/evaluation.hpp"
 #include "farlod/export.hpp"
 #include "farlod/inspection.hpp"
 #include "farlod/package.hpp"
@@ -45,6 +46,11 @@ struct CellVegetation {
   double height_mean_m = 0.0;  ///< of their tops above the ground below their axes; 0 without crowns
 };
 
+/// The mean sky view factors of what a cell has, of what is not covered: sky_of_cells. None where nothing is.
+struct CellSky {
+  std::optional<double> ground, walls, roofs;
+};
+
 /// Roughness length and zero-plane displacement height for wind.
 struct Roughness {
   double length_m = 0.0, displacement_m = 0.0;
@@ -58,6 +64,8 @@ struct CellMorphology {
   CellAmounts amounts;
   std::optional<CellVegetation>
       vegetation;  ///< none where the package has no crowns at all: nobody said that no trees stand there
+
+  CellSky sky;  ///< nothing, unless the caller fills it
 
   [[nodiscard]] double lambda_p() const { return amounts.building_plan_area_m2 / amounts.plan_area_m2; }
   [[nodiscard]] double lambda_f(std::size_t wind) const { return amounts.frontal_area_m2[wind] / amounts.plan_area_m2; }
@@ -84,6 +92,13 @@ struct CellMorphology {
 /// The cells of a package, row by row from the south-west. Throws InvalidArgument where the package does not tell buildings from
 /// ground (a surface model), or has not cut them at the borders of cells; Cancelled, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT std::vector<CellMorphology> morphology_of_cells(const Package& package, const RunSettings& run = {});
+
+/// The sky of the cells, in the same order: of the ground between buildings, on pixels of `spacing_m` (0.05 to 1,000) whose
+/// centres lie in the cell, and of walls and roofs as evaluate_surfaces has their receivers, by area. Throws what evaluate_raster
+/// and evaluate_surfaces throw, InvalidArgument for a dry run and for a run whose answers are kept, too.
+[[nodiscard]] FARLOD_EXPORT std::vector<CellSky> sky_of_cells(const Package& package, double spacing_m,
+                                                              const EvaluationSettings& settings = {},
+                                                              const RunSettings& run = {});
 
 /// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell.
 [[nodiscard]] FARLOD_EXPORT std::vector<ColumnDescription> morphology_columns();

@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "farlod/evaluation.hpp"
 #include "farlod/morphology.hpp"
 #include "farlod/package.hpp"
+#include "farlod/run.hpp"
 #include "python/binding/interruptible_run.hpp"
 #include "python/binding/owned_array.hpp"
 #include "python/runtime_module/package.hpp"
@@ -22,7 +24,7 @@ namespace farlod {
 namespace {
 
 /// The values of all cells, a column after the other; NaN where a cell has nothing to tell.
-std::vector<std::vector<double>> columns_of(const std::vector<CellMorphology>& cells, std::size_t count) {
+std::vector<std::vector<double>> values_of_cells(const std::vector<CellMorphology>& cells, std::size_t count) {
   std::vector<std::vector<double>> columns(count);
   for (const CellMorphology& cell : cells) {
     const std::vector<std::optional<double>> values = morphology_values(cell);
@@ -31,10 +33,21 @@ std::vector<std::vector<double>> columns_of(const std::vector<CellMorphology>& c
   return columns;
 }
 
+/// With the sky, if receivers have a spacing.
+std::vector<CellMorphology> cells_with_sky(const Package& package, std::optional<double> spacing_m,
+                                           const EvaluationSettings& settings, const RunSettings& run) {
+  std::vector<CellMorphology> cells = morphology_of_cells(package, run);
+  if (!spacing_m) return cells;
+  const std::vector<CellSky> skies = sky_of_cells(package, *spacing_m, settings, run);
+  for (std::size_t n = 0; n < cells.size(); ++n) cells[n].sky = skies[n];
+  return cells;
+}
+
 /// Places and corners of cells, and the columns by their names.
-py::dict cells_in_python(const Package& package, const CallerSettings& caller) {
+py::dict cells_in_python(const Package& package, std::optional<double> spacing_m, const EvaluationSettings& settings,
+                         const CallerSettings& caller) {
   std::vector<CellMorphology> cells;
-  run_interruptibly(caller, [&](const RunSettings& run) { cells = morphology_of_cells(package, run); });
+  run_interruptibly(caller, [&](const RunSettings& run) { cells = cells_with_sky(package, spacing_m, settings, run); });
   std::vector<std::int32_t> i, j;
   std::vector<double> corners;
   for (const CellMorphology& cell : cells) {
@@ -43,7 +56,7 @@ py::dict cells_in_python(const Package& package, const CallerSettings& caller) {
     for (const Point2d corner : cell.corners_projected) corners.insert(corners.end(), {corner.x, corner.y});
   }
   const std::vector<ColumnDescription> descriptions = morphology_columns();
-  std::vector<std::vector<double>> values = columns_of(cells, descriptions.size());
+  std::vector<std::vector<double>> values = values_of_cells(cells, descriptions.size());
   py::dict columns;
   for (std::size_t n = 0; n < descriptions.size(); ++n)
     columns[py::str(descriptions[n].name)] = owned_array(std::move(values[n]));
@@ -54,6 +67,8 @@ py::dict cells_in_python(const Package& package, const CallerSettings& caller) {
 
 }  // namespace
 
-void add_cells(py::module_& module) { module.def("cells_of", &cells_in_python, py::arg("package"), py::arg("caller")); }
+void add_cells(py::module_& module) {
+  module.def("cells_of", &cells_in_python, py::arg("package"), py::arg("svf_spacing_m"), py::arg("settings"), py::arg("caller"));
+}
 
 }  // namespace farlod

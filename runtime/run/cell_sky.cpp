@@ -19,7 +19,8 @@
 namespace farlod {
 namespace {
 
-/// Collects the receivers of each cell, which come in the same order whatever the number of threads. The manifest must outlive it.
+/// Collects the receivers of each cell, which come in the same order whatever the number of threads. The manifest must outlive
+/// it.
 class SkyOfCells {
  public:
   explicit SkyOfCells(const package::Manifest& manifest)
@@ -34,7 +35,8 @@ class SkyOfCells {
         const Point2d centre =
             plan.centre_m(tile.place.column * raster_tile_edge + column, tile.place.row * raster_tile_edge + row);
         const Cell cell = manifest_.grid.cell_of(manifest_.grid_from_projected(centre));
-        if (manifest_.grid.cells.contains(cell)) sums_[manifest_.grid.cells.index_of(cell)].ground.add(double{svf}, plan.step_m * plan.step_m);
+        if (manifest_.grid.cells.contains(cell))
+          sums_[manifest_.grid.cells.index_of(cell)].ground.add(double{svf}, plan.step_m * plan.step_m);
       }
   }
   void add(std::size_t cell, std::span<const SurfacePoint> points) {
@@ -69,11 +71,12 @@ std::vector<CellSky> sky_of_cells(const Package& package, double spacing_m, cons
   const package::Manifest& manifest = in_use.reader().manifest();
   SkyOfCells cells(manifest);
   const auto count = static_cast<double>(manifest.grid.cells.size());
-  const RunSettings with_means = with_bytes_of_caller(run, static_cast<std::uint64_t>(count * (6.0 * sizeof(double) + sizeof(CellSky))));
+  const RunSettings with_means =
+      with_bytes_of_caller(run, static_cast<std::uint64_t>(count * (6.0 * sizeof(double) + sizeof(CellSky))));
   const RasterPlan plan = plan_raster(package, spacing_m, package.description().outline_projected);
   (void)evaluate_raster(
-      package, plan, {.above = HeightAbove::ground, .height_m = 0.0}, settings, [&](const RasterTile& tile) { cells.add(plan, tile); },
-      with_means);
+      package, plan, {.above = HeightAbove::ground, .height_m = 0.0}, settings,
+      [&](const RasterTile& tile) { cells.add(plan, tile); }, with_means);
   (void)evaluate_surfaces(
       package, {.choice = SurfaceChoice::all, .spacing_m = spacing_m}, settings,
       [&](std::size_t cell, std::span<const SurfacePoint> points) { cells.add(cell, points); }, with_means);

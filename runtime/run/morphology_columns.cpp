@@ -69,6 +69,9 @@ constexpr MorphologyColumn before_winds[] = {
      [](Morphology c) {
        return c.vegetation && c.vegetation->count > 0 ? std::optional(c.vegetation->height_mean_m) : std::nullopt;
      }},
+    {"svf_ground", "1", "mean sky view factor of the ground between buildings", [](Morphology c) { return c.sky.ground; }},
+    {"svf_walls", "1", "mean sky view factor of walls, by area", [](Morphology c) { return c.sky.walls; }},
+    {"svf_roofs", "1", "mean sky view factor of roofs, by area", [](Morphology c) { return c.sky.roofs; }},
     {"lambda_f", "1", "frontal area density, mean of 16 wind directions",
      [](Morphology c) { return std::optional(c.lambda_f_mean()); }},
 };

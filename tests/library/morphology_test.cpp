@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "farlod/error.hpp"
+#include "farlod/raster.hpp"
 #include "tests/library/packed_sample.hpp"
 #include "tests/scenes/footprints_text.hpp"
 #include "tests/scenes/planted_crowns.hpp"
@@ -220,7 +221,7 @@ std::vector<CellMorphology> cells_with_crowns(double cell_edge_m) {
   const Point2d middle = 0.5 * (low + high);
   crowns.add(middle, 2.0, 8.0, 5.0, CrownShape::cylinder, Foliage::unknown);
   crowns.add(middle + Point2d{5.0, 0.0}, 2.0, 8.0, 5.0, CrownShape::cylinder, Foliage::unknown);
-  crowns.add(middle + Point2d{0.0, 20.0}, 2.0, 12.0, 2.0, CrownShape::prism, Foliage::unknown, std::numbers::pi / 6.0);
+  crowns.add(middle - Point2d{13.0, 0.0}, 2.0, 12.0, 2.0, CrownShape::prism, Foliage::unknown, std::numbers::pi / 6.0);
   scenes::plant(crowns, folder);
   return morphology_of_cells(Package(folder));
 }
@@ -282,6 +283,36 @@ TEST(Morphology, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(a[n].amounts.height_moment_m4, b[n].amounts.height_moment_m4);
     EXPECT_EQ(a[n].amounts.frontal_area_m2, b[n].amounts.frontal_area_m2);
   }
+}
+
+/// A house alone: its roof sees the whole sky, its walls see half of it, and the ground what a raster has there. The corner of
+/// four cells is in its middle, so that all have the same.
+TEST(Morphology, SkyOfCellsIsThatOfTheirReceivers) {
+  constexpr double horizon_rounding = 2e-3;  // of 320 azimuths
+  const FormTown town = form_house();
+  const Package package = town.packed(100.0, AlignMode::none);
+  const std::vector<CellSky> skies = sky_of_cells(package, 1.0);
+  ASSERT_EQ(skies.size(), morphology_of_cells(package).size());
+  const Raster raster = evaluate_raster(package, plan_raster(package, 1.0, package.description().outline_projected),
+                                        {.above = HeightAbove::ground, .height_m = 0.0});
+  double sum = 0.0, count = 0.0;
+  for (const CellSky& sky : skies) {
+    if (sky.ground) sum += *sky.ground, count += 1.0;
+    if (!sky.walls) continue;
+    EXPECT_NEAR(*sky.walls, 0.5, horizon_rounding);
+    EXPECT_NEAR(*sky.roofs, 1.0, horizon_rounding);
+    EXPECT_LT(*sky.ground, 0.999);
+  }
+  EXPECT_NEAR(sum / count, *raster.summary.svf_mean, horizon_rounding);
+}
+
+TEST(Morphology, SkyOfCellsRefusesWhatMakesNoSense) {
+  const FormTown town = form_house();
+  const Package package = town.packed(100.0, AlignMode::none);
+  EvaluationSettings dry;
+  dry.dry_run = true;
+  EXPECT_THROW((void)sky_of_cells(package, 0.0), InvalidArgument);
+  EXPECT_THROW((void)sky_of_cells(package, 2.0, dry), InvalidArgument);
 }
 
 TEST(Morphology, NeedsBuildingsThatAreCutAtTheBorders) {

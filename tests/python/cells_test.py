@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import geopandas
 import numpy as np
 import pandas
 import pytest
@@ -38,6 +39,20 @@ def test_walls_of_a_street(canyon: farlod.City) -> None:
     np.testing.assert_allclose(built.height_mean_m, CANYON_HEIGHT, atol=1e-3)
     # A city without trees tells nothing of them
     assert cells.vegetation_fraction.isna().all() and cells.crowns.isna().all()
+
+
+def test_sky_of_the_cells_is_that_of_rasters_and_surfaces(village: farlod.City) -> None:
+    assert village.cells().svf_ground.isna().all()
+    cells = village.cells(svf=5.0)
+    ground = village.svf_grid(5.0, bbox=village.bounds, height=0.0).svf.to_dataframe().reset_index().dropna(subset="svf")
+    pixels = geopandas.points_from_xy(ground.x, ground.y)
+    roofs = village.surfaces("roofs", 5.0, points=True).dropna(subset="svf")
+    for cell in cells.itertuples():
+        np.testing.assert_allclose(cell.svf_ground, ground.svf[pixels.within(cell.geometry)].mean(), atol=1e-6)
+        here = roofs[roofs.within(cell.geometry)]
+        if len(here):
+            np.testing.assert_allclose(cell.svf_roofs, np.average(here.svf, weights=here.area_m2), atol=1e-6)
+    assert cells.svf_roofs.notna().sum() > 3 and (cells.svf_walls.dropna() < 0.6).all()
 
 
 def test_needs_buildings_that_are_cut(tmp_path: Path, village_path: str) -> None:

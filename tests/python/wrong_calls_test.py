@@ -146,7 +146,13 @@ CALLS = {
         ((20.0,), dict(light=800.0), "farlod.Light"),
         ((20.0,), dict(light=farlod.Light(180.0, 30.0, 800.0, 100.0), quantities=["illuminance"]), "lx"),
     ],
-    "cells": [((), dict(threads="two"), "threads"), ((), dict(progress=3), "progress")],
+    "cells": [
+        ((), dict(threads="two"), "threads"),
+        ((), dict(progress=3), "progress"),
+        (("fine",), {}, "svf"),
+        ((0.0,), {}, "spacing_m"),
+        ((5.0,), dict(engine="fast"), '"auto"'),
+    ],
     "ground": [((0.0,), {}, "step"), ((5.0,), dict(threads="two"), "threads")],
     "surfaces": [
         (("doors",), {}, '"roofs"'),

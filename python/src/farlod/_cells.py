@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
+from farlod import _arguments
 from farlod._modules import runtime as _runtime
 from farlod._open_city import OpenCity
-from farlod._settings import Progress, caller_settings
+from farlod._settings import Evaluation, Options
 
 if TYPE_CHECKING:
     import geopandas
@@ -20,14 +21,16 @@ COUNTS = ("buildings",)
 class CellsOfCity(OpenCity):
     """What each cell of the grid has of buildings: a part of :class:`farlod.City`."""
 
-    def cells(
-        self, *, threads: int = 0, memory_limit: int | None = None, progress: Progress = None
-    ) -> geopandas.GeoDataFrame:
+    def cells(self, svf: float | None = None, **options: Unpack[Options]) -> geopandas.GeoDataFrame:
         """Urban form of each cell of the grid: plan area fraction, frontal area density for 16 wind directions, heights, roughness.
 
         Parameters
         ----------
-        threads, memory_limit, progress : as for :meth:`svf`
+        svf : float, optional
+            Metres between receivers, 0.05 to 1,000: gives the mean sky view factors of the ground between buildings
+            (``svf_ground``), of walls (``svf_walls``) and of roofs (``svf_roofs``).
+        **options : as for :meth:`svf`
+            All but ``threads``, ``memory_limit`` and ``progress`` are for these alone.
 
         Returns
         -------
@@ -44,12 +47,15 @@ class CellsOfCity(OpenCity):
         (True, True)
         """
         import geopandas
-        import shapely
+        import shapely.geometry
 
-        found = _runtime.cells_of(self._open_package(), caller_settings(_runtime, threads, memory_limit, progress))
+        package = self._open_package()
+        evaluation = Evaluation(options=options)
+        spacing = None if svf is None else _arguments.number("svf", svf)
+        found = _runtime.cells_of(package, spacing, evaluation.settings(), evaluation.caller())
         corners = found["corners_m"]
         middle = 0.5 * (corners[:, 0] + corners[:, 2])
         columns = {"i": found["i"], "j": found["j"], "x_m": middle[:, 0], "y_m": middle[:, 1], **found["columns"]}
         for name in COUNTS:
             columns[name] = columns[name].astype("int64")
-        return geopandas.GeoDataFrame(columns, geometry=shapely.polygons(corners), crs=self.crs)
+        return geopandas.GeoDataFrame(columns, geometry=[shapely.geometry.Polygon(square) for square in corners], crs=self.crs)

@@ -145,7 +145,9 @@ class _Cells(TypedDict):
     corners_m: _Floats64
     columns: dict[str, _Floats64]
 
-def cells_of(package: Package, caller: CallerSettings) -> _Cells: ...
+def cells_of(
+    package: Package, svf_spacing_m: float | None, settings: EvaluationSettings, caller: CallerSettings
+) -> _Cells: ...
 def evaluate_points(
     package: Package, points: PointColumns, placing: Placing, settings: EvaluationSettings, caller: CallerSettings
 ) -> _PointAnswers: ...
