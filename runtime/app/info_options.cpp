@@ -47,11 +47,7 @@ struct RawOptions {
   std::string package, cell, cells, obj, picture, report;
 };
 
-void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
-  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
-  app.add_flag("--json", o.json, "Print everything as JSON, also with --quiet")->group("Output");
-  app.add_flag("--check", o.check, "Read all of the package, and tell what is damaged, and where")->group("Contents");
-  app.add_option("--cell", raw.cell, "I,J: also tell what this cell holds")->group("Contents");
+void add_cells_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
   app.add_option("--cells", raw.cells,
                  "Write the urban form of each cell of the grid to this table (" + endings_where(holds_cells) +
                      "): plan area fraction, frontal area density for 16 wind directions, areas and heights, roughness")
@@ -61,6 +57,14 @@ void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
                  "Metres between receivers: --cells has the mean sky view factors of ground, walls and roofs, too")
       ->check(CLI::Range(0.05, 1000.0))
       ->group("Output");
+}
+
+void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
+  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
+  app.add_flag("--json", o.json, "Print everything as JSON, also with --quiet")->group("Output");
+  app.add_flag("--check", o.check, "Read all of the package, and tell what is damaged, and where")->group("Contents");
+  app.add_option("--cell", raw.cell, "I,J: also tell what this cell holds")->group("Contents");
+  add_cells_options(app, raw, o);
   app.add_option("--obj", raw.obj, "Write the neighborhood of --cell to this OBJ file, a group for each building")
       ->type_name(file_value)
       ->group("Output");

@@ -38,13 +38,13 @@ void write_morphology_csv(std::span<const CellMorphology> cells, const std::file
   write_atomically(path, [&](std::ostream& out) {
     CsvText text;
     text.fields({"i", "j", "x_m", "y_m"});
-    const std::vector<ColumnDescription> columns = morphology_columns();
-    for (const ColumnDescription& column : columns) text.field(column.name);
+    const std::vector<ColumnDescription> described = morphology_columns();
+    for (const ColumnDescription& column : described) text.field(column.name);
     text.end_row();
     for (const CellMorphology& cell : cells) {
       text.field(fmt::format("{}", cell.cell.i)).field(fmt::format("{}", cell.cell.j));
       text.millimetres(centre_of(cell).x).millimetres(centre_of(cell).y);
-      for (const auto& value : rounded_values(cell, columns)) text.field(value ? fmt::format("{}", *value) : "");
+      for (const auto& value : rounded_values(cell, described)) text.field(value ? fmt::format("{}", *value) : "");
       text.end_row();
     }
     out << text.bytes();
@@ -54,15 +54,15 @@ void write_morphology_csv(std::span<const CellMorphology> cells, const std::file
 void write_morphology_as_features(std::span<const CellMorphology> cells, FeatureWriter& writer) {
   FeatureLayer layer{"cells", "Urban form of the cells of the grid", {{"i", FieldType::whole}, {"j", FieldType::whole}}};
   for (const char* const name : {"x_m", "y_m"}) layer.fields.push_back({name, FieldType::real});
-  const std::vector<ColumnDescription> columns = morphology_columns();
-  for (const ColumnDescription& column : columns) layer.fields.push_back({column.name, FieldType::real});
+  const std::vector<ColumnDescription> described = morphology_columns();
+  for (const ColumnDescription& column : described) layer.fields.push_back({column.name, FieldType::real});
   layer.geometry = LayerGeometry::areas;
   writer.begin(layer);
   for (const CellMorphology& cell : cells) {
     const Point2d centre = centre_of(cell);
     FeatureRow row{centre, {}, {std::int64_t{cell.cell.i}, std::int64_t{cell.cell.j}}};
     for (const double x_or_y : {centre.x, centre.y}) row.values.emplace_back(rounded(x_or_y, "m"));
-    for (const auto& value : rounded_values(cell, columns)) row.values.push_back(value ? FieldValue(*value) : FieldValue());
+    for (const auto& value : rounded_values(cell, described)) row.values.push_back(value ? FieldValue(*value) : FieldValue());
     std::vector<Point3d>& shell = row.polygons.emplace_back().shell;
     for (const Point2d corner : cell.corners_projected) shell.push_back({corner.x, corner.y, 0.0});
     writer.add(row);
