@@ -58,13 +58,10 @@ struct Roughness {
 
 /// What the amounts of a cell mean, in the words of urban climatology. Without buildings there are no heights and no roughness;
 /// without ground between them no height to width ratio.
-struct CellMorphology {
-  CellPlace cell;
-  std::array<Point2d, 4> corners_projected;  ///< counter-clockwise from the south-western one, easting and northing
+struct UrbanForm {
   CellAmounts amounts;
-  std::optional<CellVegetation>
-      vegetation;  ///< none where the package has no crowns at all: nobody said that no trees stand there
-
+  /// None where the package has no crowns at all: nobody said that no trees stand there.
+  std::optional<CellVegetation> vegetation;
   CellSky sky;  ///< nothing, unless the caller fills it
 
   [[nodiscard]] double lambda_p() const { return amounts.building_plan_area_m2 / amounts.plan_area_m2; }
@@ -89,9 +86,26 @@ struct CellMorphology {
   [[nodiscard]] FARLOD_EXPORT std::optional<Roughness> roughness_kanda() const;
 };
 
+/// The urban form of a cell of the grid.
+struct CellMorphology : UrbanForm {
+  CellPlace cell;
+  std::array<Point2d, 4> corners_projected;  ///< counter-clockwise from the south-western one, easting and northing
+};
+
+/// A part of the map that takes the place of a cell, such as a census block or a square of a model: what lies in an odd number of
+/// rings (Region::Ring), in the package's CRS. Rings touch each other and themselves in corners only.
+using Zone = std::vector<std::vector<Point2d>>;
+
 /// The cells of a package, row by row from the south-west. Throws InvalidArgument where the package does not tell buildings from
 /// ground (a surface model), or has not cut them at the borders of cells; Cancelled, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT std::vector<CellMorphology> morphology_of_cells(const Package& package, const RunSettings& run = {});
+
+/// The same of zones, in their order; they may overlap. Their plan area is that of their rings, also beyond the grid.
+///   (1) Walls and roofs are cut exactly at the borders of zones: sums over zones that part the city are those of the city.
+///   (2) A wall on a border belongs to the zone behind it, where its building is.
+/// Throws InvalidArgument for a coordinate that is no number, or larger than 1e8 m, or for a zone without area, too.
+[[nodiscard]] FARLOD_EXPORT std::vector<UrbanForm> morphology_of_zones(const Package& package, const std::vector<Zone>& zones,
+                                                                       const RunSettings& run = {});
 
 /// The sky of the cells, in the same order: of the ground between buildings, on pixels of `spacing_m` (0.05 to 1,000) whose
 /// centres lie in the cell, and of walls and roofs as evaluate_surfaces has their receivers, by area. Throws what evaluate_raster
@@ -102,6 +116,6 @@ struct CellMorphology {
 
 /// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell.
 [[nodiscard]] FARLOD_EXPORT std::vector<ColumnDescription> morphology_columns();
-[[nodiscard]] FARLOD_EXPORT std::vector<std::optional<double>> morphology_values(const CellMorphology& cell);
+[[nodiscard]] FARLOD_EXPORT std::vector<std::optional<double>> morphology_values(const UrbanForm& form);
 
 }  // namespace farlod

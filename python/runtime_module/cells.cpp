@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/stl.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -23,13 +24,24 @@ using namespace py::literals;
 namespace farlod {
 namespace {
 
-/// The values of all cells, a column after the other; NaN where a cell has nothing to tell.
-std::vector<std::vector<double>> values_of_cells(const std::vector<CellMorphology>& cells, std::size_t count) {
+/// The values of all cells or zones, a column after the other; NaN where a cell has nothing to tell.
+template <class Form>
+std::vector<std::vector<double>> values_of_forms(const std::vector<Form>& forms, std::size_t count) {
   std::vector<std::vector<double>> columns(count);
-  for (const CellMorphology& cell : cells) {
-    const std::vector<std::optional<double>> values = morphology_values(cell);
+  for (const UrbanForm& form : forms) {
+    const std::vector<std::optional<double>> values = morphology_values(form);
     for (std::size_t n = 0; n < count; ++n) columns[n].push_back(values[n].value_or(std::numeric_limits<double>::quiet_NaN()));
   }
+  return columns;
+}
+
+template <class Form>
+py::dict columns_by_name(const std::vector<Form>& forms) {
+  const std::vector<ColumnDescription> descriptions = morphology_columns();
+  std::vector<std::vector<double>> values = values_of_forms(forms, descriptions.size());
+  py::dict columns;
+  for (std::size_t n = 0; n < descriptions.size(); ++n)
+    columns[py::str(descriptions[n].name)] = owned_array(std::move(values[n]));
   return columns;
 }
 
@@ -55,20 +67,36 @@ py::dict cells_in_python(const Package& package, std::optional<double> spacing_m
     j.push_back(cell.cell.j);
     for (const Point2d corner : cell.corners_projected) corners.insert(corners.end(), {corner.x, corner.y});
   }
-  const std::vector<ColumnDescription> descriptions = morphology_columns();
-  std::vector<std::vector<double>> values = values_of_cells(cells, descriptions.size());
-  py::dict columns;
-  for (std::size_t n = 0; n < descriptions.size(); ++n)
-    columns[py::str(descriptions[n].name)] = owned_array(std::move(values[n]));
   return py::dict("i"_a = owned_array(std::move(i)), "j"_a = owned_array(std::move(j)),
                   "corners_m"_a = owned_array(std::move(corners), {static_cast<py::ssize_t>(cells.size()), 4, 2}),
-                  "columns"_a = columns);
+                  "columns"_a = columns_by_name(cells));
+}
+
+using ZoneInPython = std::vector<std::vector<std::array<double, 2>>>;
+
+std::vector<Zone> zones_of(const std::vector<ZoneInPython>& zones) {
+  std::vector<Zone> result;
+  for (const ZoneInPython& rings : zones) {
+    Zone& zone = result.emplace_back();
+    for (const auto& ring : rings) {
+      std::vector<Point2d>& corners = zone.emplace_back();
+      for (const auto& [x, y] : ring) corners.push_back({x, y});
+    }
+  }
+  return result;
+}
+
+py::dict zones_in_python(const Package& package, const std::vector<ZoneInPython>& zones, const CallerSettings& caller) {
+  std::vector<UrbanForm> forms;
+  run_interruptibly(caller, [&](const RunSettings& run) { forms = morphology_of_zones(package, zones_of(zones), run); });
+  return columns_by_name(forms);
 }
 
 }  // namespace
 
 void add_cells(py::module_& module) {
   module.def("cells_of", &cells_in_python, py::arg("package"), py::arg("svf_spacing_m"), py::arg("settings"), py::arg("caller"));
+  module.def("zones_of", &zones_in_python, py::arg("package"), py::arg("zones_m"), py::arg("caller"));
 }
 
 }  // namespace farlod

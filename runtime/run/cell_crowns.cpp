@@ -41,19 +41,30 @@ LinePart covered_by(const Crown& crown, double y_m) {
   return {std::max(a.begin_m, b.begin_m), std::min(a.end_m, b.end_m)};
 }
 
-/// The length of all parts together, where overlaps count once, between 0 and `edge_m`.
-double length_of_union(std::vector<LinePart>& parts, double edge_m) {
-  std::ranges::sort(parts, {}, &LinePart::begin_m);
-  double length_m = 0.0, done_m = 0.0;
-  for (const LinePart& part : parts) {
-    const double end_m = std::min(part.end_m, edge_m);
+/// The length of all parts together, where overlaps count once, from one place to another.
+double length_of_union(const std::vector<LinePart>& sorted, double from_m, double to_m) {
+  double length_m = 0.0, done_m = from_m;
+  for (const LinePart& part : sorted) {
+    const double end_m = std::min(part.end_m, to_m);
     length_m += std::max(0.0, end_m - std::max(part.begin_m, done_m));
     done_m = std::max(done_m, end_m);
   }
   return length_m;
 }
 
-double plan_area_m2(const std::vector<Crown>& crowns, double edge_m) {
+/// The same in a cell, or in the zone.
+double length_within(std::vector<LinePart>& parts, double edge_m, double y_m, const std::vector<ZoneTrapezoid>* within) {
+  std::ranges::sort(parts, {}, &LinePart::begin_m);
+  if (within == nullptr) return length_of_union(parts, 0.0, edge_m);
+  double length_m = 0.0;
+  for (const ZoneTrapezoid& trapezoid : *within) {
+    const auto [west_m, east_m] = trapezoid.span_at(y_m);
+    length_m += length_of_union(parts, std::max(0.0, west_m), std::min(edge_m, east_m));
+  }
+  return length_m;
+}
+
+double plan_area_m2(const std::vector<Crown>& crowns, double edge_m, const std::vector<ZoneTrapezoid>* within) {
   constexpr double line_spacing_m = 0.1;
   std::vector<std::vector<LinePart>> lines(static_cast<std::size_t>(std::ceil(edge_m / line_spacing_m)));
   const double step_m = edge_m / static_cast<double>(lines.size());
@@ -66,7 +77,8 @@ double plan_area_m2(const std::vector<Crown>& crowns, double edge_m) {
       if (part.begin_m < part.end_m) lines[k].push_back({crown.x_m + part.begin_m, crown.x_m + part.end_m});
     }
   double area_m2 = 0.0;
-  for (auto& line : lines) area_m2 += length_of_union(line, edge_m) * step_m;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    area_m2 += length_within(lines[k], edge_m, (static_cast<double>(k) + 0.5) * step_m, within) * step_m;
   return area_m2;
 }
 
@@ -86,15 +98,18 @@ std::optional<double> ground_below(Point2d p, const CellFaces& faces) {
 
 }  // namespace
 
-std::optional<CellVegetation> vegetation_of(const PackageReader& package, Cell cell, const CellFaces& faces) {
+std::optional<CellVegetation> vegetation_of(const PackageReader& package, Cell cell, const CellFaces& faces,
+                                            const std::vector<ZoneTrapezoid>* within) {
   if (!package.has_crowns()) return std::nullopt;
   CellVegetation result;
-  result.plan_area_m2 = plan_area_m2(crowns_near(package, cell, 0.0), package.grid().cell_edge_m);
+  result.plan_area_m2 = plan_area_m2(crowns_near(package, cell, 0.0), package.grid().cell_edge_m, within);
   double sum_m = 0.0;
   std::size_t above_ground = 0;
   for (const Crown& crown : package.crowns().crowns_of(cell)) {
+    const Point2d axis{crown.x_m, crown.y_m};
+    if (within != nullptr && std::ranges::none_of(*within, [&](const ZoneTrapezoid& t) { return t.contains(axis); })) continue;
     ++result.count;
-    const auto ground_m = ground_below({crown.x_m, crown.y_m}, faces);
+    const auto ground_m = ground_below(axis, faces);
     if (!ground_m) continue;
     sum_m += static_cast<double>(crown.top_m) - *ground_m;
     ++above_ground;

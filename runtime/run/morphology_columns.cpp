@@ -15,10 +15,10 @@ namespace {
 /// A column, and how a cell has its value.
 struct MorphologyColumn {
   const char *name, *unit, *definition;
-  std::optional<double> (*value)(const CellMorphology& cell);
+  std::optional<double> (*value)(const UrbanForm& cell);
 };
 
-std::optional<double> if_built(const CellMorphology& c, double value) {
+std::optional<double> if_built(const UrbanForm& c, double value) {
   return c.amounts.buildings > 0 ? std::optional(value) : std::nullopt;
 }
 
@@ -27,7 +27,7 @@ std::optional<double> displacement_of(const std::optional<Roughness>& r) {
   return r ? std::optional(r->displacement_m) : std::nullopt;
 }
 
-using Morphology = const CellMorphology&;
+using Morphology = const UrbanForm&;
 
 constexpr MorphologyColumn before_winds[] = {
     {"area_m2", "m2", "plan area of the cell", [](Morphology c) { return std::optional(c.amounts.plan_area_m2); }},
@@ -90,10 +90,10 @@ std::vector<ColumnDescription> morphology_columns() {
   return columns;
 }
 
-std::vector<std::optional<double>> morphology_values(const CellMorphology& cell) {
+std::vector<std::optional<double>> morphology_values(const UrbanForm& form) {
   std::vector<std::optional<double>> values;
-  for (const MorphologyColumn& c : before_winds) values.push_back(c.value(cell));
-  for (std::size_t k = 0; k < wind_directions; ++k) values.emplace_back(cell.lambda_f(k));
+  for (const MorphologyColumn& c : before_winds) values.push_back(c.value(form));
+  for (std::size_t k = 0; k < wind_directions; ++k) values.emplace_back(form.lambda_f(k));
   return values;
 }
 

@@ -10,6 +10,7 @@ import geopandas
 import numpy as np
 import pandas
 import pytest
+import shapely.geometry
 from conftest import CANYON_HEIGHT, run_program
 
 import farlod
@@ -60,3 +61,19 @@ def test_needs_buildings_that_are_cut(tmp_path: Path, village_path: str) -> None
     closed.close()
     with pytest.raises(farlod.InvalidArgument, match="closed"):
         closed.cells()
+
+
+def test_zones_that_part_the_city_have_its_sums(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    box = shapely.geometry.box(west, south, east, north)
+    part = shapely.geometry.Point((west + east) / 2, (south + north) / 2).buffer(40.0)
+    zones = geopandas.GeoDataFrame({"name": ["outside", "inside"]}, geometry=[box.difference(part), part], index=[7, 8], crs=village.crs)
+    forms, cells = village.cells(zones=zones), village.cells()
+    for column in ("building_plan_area_m2", "roof_area_m2", "wall_area_m2", "building_volume_m3"):
+        assert forms[column].min() > 0.0
+        np.testing.assert_allclose(forms[column].sum(), cells[column].sum(), rtol=1e-6, err_msg=column)
+    np.testing.assert_allclose(forms.area_m2, zones.geometry.area, rtol=1e-9)
+    assert forms.index.tolist() == [7, 8] and forms.geometry.geom_equals(zones.geometry).all()
+    abroad = village.cells(zones=zones.to_crs("EPSG:4326"))
+    assert abroad.crs == "EPSG:4326"
+    np.testing.assert_allclose(abroad.wall_area_m2, forms.wall_area_m2, rtol=1e-5)

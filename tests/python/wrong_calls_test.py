@@ -152,6 +152,11 @@ CALLS = {
         (("fine",), {}, "svf"),
         ((0.0,), {}, "spacing_m"),
         ((5.0,), dict(engine="fast"), '"auto"'),
+        ((5.0,), dict(zones=NOWHERE), "zones"),
+        ((), dict(zones=[1]), "GeoDataFrame"),
+        ((), dict(zones=NOWHERE), "CRS"),
+        ((), dict(zones=LINE), "polygons"),
+        ((), dict(zones=geopandas.GeoSeries([shapely.geometry.Polygon()], crs=32632)), "area"),
     ],
     "ground": [((0.0,), {}, "step"), ((5.0,), dict(threads="two"), "threads")],
     "surfaces": [

@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 from farlod import _arguments
 from farlod._modules import runtime as _runtime
 from farlod._open_city import OpenCity
+from farlod._regions import zones_of
 from farlod._settings import Evaluation, Options
+from farlod.errors import InvalidArgument
 
 if TYPE_CHECKING:
     import geopandas
@@ -21,7 +23,9 @@ COUNTS = ("buildings",)
 class CellsOfCity(OpenCity):
     """What each cell of the grid has of buildings: a part of :class:`farlod.City`."""
 
-    def cells(self, svf: float | None = None, **options: Unpack[Options]) -> geopandas.GeoDataFrame:
+    def cells(
+        self, svf: float | None = None, *, zones: Any = None, **options: Unpack[Options]
+    ) -> geopandas.GeoDataFrame:
         """Urban form of each cell of the grid: plan area fraction, frontal area density for 16 wind directions, heights, roughness.
 
         Parameters
@@ -29,6 +33,10 @@ class CellsOfCity(OpenCity):
         svf : float, optional
             Metres between receivers, 0.05 to 1,000: gives the mean sky view factors of the ground between buildings
             (``svf_ground``), of walls (``svf_walls``) and of roofs (``svf_roofs``).
+        zones : geopandas.GeoDataFrame or GeoSeries of polygons, optional
+            Census blocks, local climate zones, squares of a model: the rows are these, in the place of cells, with their index,
+            geometry and CRS. Walls and roofs are cut exactly at their borders; a wall on a border belongs to the zone of its
+            building. ``area_m2`` is all of the polygon in the CRS of the city, also beyond the grid. Not with ``svf``.
         **options : as for :meth:`svf`
             All but ``threads``, ``memory_limit`` and ``progress`` are for these alone.
 
@@ -50,12 +58,26 @@ class CellsOfCity(OpenCity):
         import shapely.geometry
 
         package = self._open_package()
+        if zones is not None:
+            return self._zones(package, zones, svf, Evaluation(options=options))
         evaluation = Evaluation(options=options)
         spacing = None if svf is None else _arguments.number("svf", svf)
         found = _runtime.cells_of(package, spacing, evaluation.settings(), evaluation.caller())
         corners = found["corners_m"]
         middle = 0.5 * (corners[:, 0] + corners[:, 2])
         columns = {"i": found["i"], "j": found["j"], "x_m": middle[:, 0], "y_m": middle[:, 1], **found["columns"]}
-        for name in COUNTS:
-            columns[name] = columns[name].astype("int64")
-        return geopandas.GeoDataFrame(columns, geometry=[shapely.geometry.Polygon(square) for square in corners], crs=self.crs)
+        return geopandas.GeoDataFrame(_with_counts(columns), geometry=[shapely.geometry.Polygon(square) for square in corners], crs=self.crs)
+
+    def _zones(self, package: Any, zones: Any, svf: float | None, evaluation: Evaluation) -> geopandas.GeoDataFrame:
+        import geopandas
+
+        if svf is not None:
+            raise InvalidArgument("svf is of the cells of the grid: leave it or zones out")
+        rings = zones_of(zones, self.crs_wkt)
+        evaluation.settings()
+        columns = _with_counts(_runtime.zones_of(package, rings, evaluation.caller()))
+        return geopandas.GeoDataFrame(columns, geometry=zones.geometry.values, index=zones.index, crs=zones.geometry.crs)
+
+
+def _with_counts(columns: dict[str, Any]) -> dict[str, Any]:
+    return {name: values.astype("int64") if name in COUNTS else values for name, values in columns.items()}
