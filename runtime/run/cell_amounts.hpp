@@ -31,7 +31,7 @@ struct CellForm {
   [[nodiscard]] CellAmounts all() const;
 };
 
-/// Of the whole cell, or of what lies in the trapezoids (cell frame) if there is a list.
+/// What the whole cell has, or what lies in the trapezoids (cell frame), if there is a list.
 [[nodiscard]] CellForm form_of(const CellFaces& faces, const WindDirections& winds,
                                const std::vector<ZoneTrapezoid>* within = nullptr);
 
