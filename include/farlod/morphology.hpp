@@ -7,10 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "farlod/evaluation.hpp"
 #include "farlod/export.hpp"
 #include "farlod/inspection.hpp"
 #include "farlod/package.hpp"
 #include "farlod/point.hpp"
+#include "farlod/quantities.hpp"
 #include "farlod/run.hpp"
 
 namespace farlod {
@@ -37,6 +39,18 @@ struct CellAmounts {
   double building_height_mean_m = 0.0, building_height_std_m = 0.0;
 };
 
+/// What a cell of a package with trees has of crowns. Trunks do not count.
+struct CellVegetation {
+  double plan_area_m2 = 0.0;   ///< below crowns, on the ground or above roofs; what several cover counts once
+  std::size_t count = 0;       ///< crowns whose axes stand in the cell
+  double height_mean_m = 0.0;  ///< of their tops above the ground below their axes; 0 without crowns
+};
+
+/// The mean sky view factors of what a cell has, of what is not covered: sky_of_cells. None where nothing is.
+struct CellSky {
+  std::optional<double> ground, walls, roofs;
+};
+
 /// Roughness length and zero-plane displacement height for wind.
 struct Roughness {
   double length_m = 0.0, displacement_m = 0.0;
@@ -44,10 +58,11 @@ struct Roughness {
 
 /// What the amounts of a cell mean, in the words of urban climatology. Without buildings there are no heights and no roughness;
 /// without ground between them no height to width ratio.
-struct CellMorphology {
-  CellPlace cell;
-  std::array<Point2d, 4> corners_projected;  ///< counter-clockwise from the south-western one, easting and northing
+struct UrbanForm {
   CellAmounts amounts;
+  /// None where the package has no crowns at all: nobody said that no trees stand there.
+  std::optional<CellVegetation> vegetation;
+  CellSky sky;  ///< nothing, unless the caller fills it
 
   [[nodiscard]] double lambda_p() const { return amounts.building_plan_area_m2 / amounts.plan_area_m2; }
   [[nodiscard]] double lambda_f(std::size_t wind) const { return amounts.frontal_area_m2[wind] / amounts.plan_area_m2; }
@@ -59,6 +74,8 @@ struct CellMorphology {
   /// The ratio of the canyon that has as much wall and ground (Masson 2000): half the wall area over the plan area without
   /// buildings.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_to_width() const;
+  /// The share of the plan area below crowns.
+  [[nodiscard]] FARLOD_EXPORT std::optional<double> vegetation_fraction() const;
   /// Mean and standard deviation over the building plan area.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_mean_m() const;
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_std_m() const;
@@ -69,8 +86,36 @@ struct CellMorphology {
   [[nodiscard]] FARLOD_EXPORT std::optional<Roughness> roughness_kanda() const;
 };
 
+/// The urban form of a cell of the grid.
+struct CellMorphology : UrbanForm {
+  CellPlace cell;
+  std::array<Point2d, 4> corners_projected;  ///< counter-clockwise from the south-western one, easting and northing
+};
+
+/// A part of the map that takes the place of a cell, such as a census block or a square of a model: what lies in an odd number of
+/// rings (Region::Ring), in the package's CRS. Rings touch each other and themselves in corners only.
+using Zone = std::vector<std::vector<Point2d>>;
+
 /// The cells of a package, row by row from the south-west. Throws InvalidArgument where the package does not tell buildings from
 /// ground (a surface model), or has not cut them at the borders of cells; Cancelled, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT std::vector<CellMorphology> morphology_of_cells(const Package& package, const RunSettings& run = {});
+
+/// The same of zones, in their order; they may overlap. Their plan area is that of their rings, also beyond the grid.
+///   (1) Walls and roofs are cut exactly at the borders of zones: sums over zones that part the city are those of the city.
+///   (2) A wall on a border belongs to the zone behind it, where its building is.
+/// Throws InvalidArgument for a coordinate that is no number, or larger than 1e8 m, or for a zone without area, too.
+[[nodiscard]] FARLOD_EXPORT std::vector<UrbanForm> morphology_of_zones(const Package& package, const std::vector<Zone>& zones,
+                                                                       const RunSettings& run = {});
+
+/// The sky of the cells, in the same order: of the ground between buildings, on pixels of `spacing_m` (0.05 to 1,000) whose
+/// centres lie in the cell, and of walls and roofs as evaluate_surfaces has their receivers, by area. Throws what evaluate_raster
+/// and evaluate_surfaces throw, InvalidArgument for a dry run and for a run whose answers are kept, too.
+[[nodiscard]] FARLOD_EXPORT std::vector<CellSky> sky_of_cells(const Package& package, double spacing_m,
+                                                              const EvaluationSettings& settings = {},
+                                                              const RunSettings& run = {});
+
+/// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell.
+[[nodiscard]] FARLOD_EXPORT std::vector<ColumnDescription> morphology_columns();
+[[nodiscard]] FARLOD_EXPORT std::vector<std::optional<double>> morphology_values(const UrbanForm& form);
 
 }  // namespace farlod

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_runtime, module) {
   module.attr("version") = farlod::software_version;
   module.attr("answered_beyond_grid_m") = farlod::answered_beyond_grid_m;
   farlod::add_package(module);
+  farlod::add_cells(module);
   farlod::add_settings(module);
   farlod::add_weather(module);
   farlod::add_evaluation(module);

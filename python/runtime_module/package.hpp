@@ -9,4 +9,7 @@ namespace farlod {
 /// Adds Package, and what it says of itself: description, check_package, ground_heights, building_outlines, surface_polygons.
 void add_package(pybind11::module_& module);
 
+/// Adds cells_of and zones_of: urban form.
+void add_cells(pybind11::module_& module);
+
 }  // namespace farlod

@@ -6,7 +6,9 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <new>
+#include <vector>
 
 #include "app/city_scenery.hpp"
 #include "app/info_options.hpp"
@@ -89,17 +91,25 @@ void draw_city_of(const Package& package, const PackageFacts& facts, const InfoO
   write_drawing(draw_city(city_scenery(package, facts, options.report_file, run)), options.picture_file);
 }
 
-void write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
+std::vector<CellMorphology> morphology_of(const Package& package, const InfoOptions& options) {
   ProgressLine progress("cells", options.run.verbosity);
   RunSettings run;
   run.threads = thread_count(options.run);
   run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
+  std::vector<CellMorphology> cells = morphology_of_cells(package, run);
+  if (!options.sky_spacing_m) return cells;
+  const std::vector<CellSky> skies = sky_of_cells(package, *options.sky_spacing_m, {}, run);
+  for (std::size_t n = 0; n < cells.size(); ++n) cells[n].sky = skies[n];
+  return cells;
+}
+
+void write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
   const PackageDescription& city = facts.description;
   TableFrame frame{.columns = {}, .crs_wkt = city.crs_wkt, .epsg = city.epsg, .convergence = city.convergence};
   frame.columns.further = morphology_columns();
   frame.provenance = {std::string("Far-LoD ") + software_version, facts.package, fmt::format("{:016x}", city.manifest_xxh3),
-                      "--cells"};
-  output_format_of(options.cells_file)->write_cells(morphology_of_cells(package, run), frame, options.cells_file);
+                      options.sky_spacing_m ? fmt::format("--cells --svf {:g}", *options.sky_spacing_m) : "--cells"};
+  output_format_of(options.cells_file)->write_cells(morphology_of(package, options), frame, options.cells_file);
 }
 
 void require_outputs(const InfoOptions& options) {

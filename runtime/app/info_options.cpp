@@ -21,7 +21,7 @@ ProgramDescription info_program() {
   return {.name = "farlod-info",
           .purpose = "tells what a package of farlod-pack holds, and whether it is whole",
           .examples = {"farlod-info town.farlod", "farlod-info town.farlod --check", "farlod-info town.farlod --png city.png",
-                       "farlod-info town.farlod --cells cells.gpkg",
+                       "farlod-info town.farlod --cells cells.gpkg --svf 2",
                        "farlod-info town.farlod --cell 3,2 --png cell.png --obj cell.obj"},
           .background =
               {"A package holds a city cut into cells, and for each cell what matters of the city far away. The manifest "
@@ -47,16 +47,24 @@ struct RawOptions {
   std::string package, cell, cells, obj, picture, report;
 };
 
-void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
-  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
-  app.add_flag("--json", o.json, "Print everything as JSON, also with --quiet")->group("Output");
-  app.add_flag("--check", o.check, "Read all of the package, and tell what is damaged, and where")->group("Contents");
-  app.add_option("--cell", raw.cell, "I,J: also tell what this cell holds")->group("Contents");
+void add_cells_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
   app.add_option("--cells", raw.cells,
                  "Write the urban form of each cell of the grid to this table (" + endings_where(holds_cells) +
                      "): plan area fraction, frontal area density for 16 wind directions, areas and heights, roughness")
       ->type_name(file_value)
       ->group("Output");
+  app.add_option("--svf", o.sky_spacing_m,
+                 "Metres between receivers: --cells has the mean sky view factors of ground, walls and roofs, too")
+      ->check(CLI::Range(0.05, 1000.0))
+      ->group("Output");
+}
+
+void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
+  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
+  app.add_flag("--json", o.json, "Print everything as JSON, also with --quiet")->group("Output");
+  app.add_flag("--check", o.check, "Read all of the package, and tell what is damaged, and where")->group("Contents");
+  app.add_option("--cell", raw.cell, "I,J: also tell what this cell holds")->group("Contents");
+  add_cells_options(app, raw, o);
   app.add_option("--obj", raw.obj, "Write the neighborhood of --cell to this OBJ file, a group for each building")
       ->type_name(file_value)
       ->group("Output");
@@ -106,6 +114,7 @@ void resolve(const RawOptions& raw, InfoOptions& o) {
   if (!raw.cells.empty() && !is_table_of_cells(o.cells_file))
     throw CLI::ValidationError(
         "--cells", "\"" + raw.cells + "\" is not the name of a table of cells: choose one of " + endings_where(holds_cells));
+  if (o.sky_spacing_m && raw.cells.empty()) throw CLI::ValidationError("--svf", "it goes with --cells");
   if (!raw.obj.empty() && !o.cell) throw CLI::ValidationError("--obj", "it goes with --cell");
   if (!raw.report.empty() && (raw.picture.empty() || o.cell))
     throw CLI::ValidationError("--report", "it goes with --png, and without --cell");

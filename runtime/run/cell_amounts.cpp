@@ -83,25 +83,36 @@ void add_frontal(const Point3d& area, const WindDirections& winds, CellAmounts& 
   for (std::size_t k = 0; k < winds.size(); ++k) amounts.frontal_area_m2[k] += std::max(0.0, dot(horizontal(area), winds[k]));
 }
 
+/// What of pieces of a face lies in a zone, if there is one. An upright face that stands on the border of two zones belongs to
+/// the one behind it, where its building is: it counts where it would stand a little back.
+std::vector<ConvexPiece> in_zone(const std::vector<ConvexPiece>& pieces, const std::vector<ZoneTrapezoid>* within,
+                                 const CellFace& face) {
+  if (within == nullptr) return pieces;
+  constexpr double back_m = 1e-4;  // more than the rounding of a cell's floats, and less than anybody maps
+  const Point3d back = covers_plan(face) ? Point3d{} : -back_m * face.of_surface;
+  std::vector<ConvexPiece> parts;
+  for (ConvexPiece piece : pieces) {
+    for (Point3d& p : piece) p = p + back;
+    const std::vector<ConvexPiece> inside = parts_within(piece, *within);
+    parts.insert(parts.end(), inside.begin(), inside.end());
+  }
+  return parts;
+}
+
 /// What is seen from above, and how high it stands.
 class PlanOfCell {
  public:
-  PlanOfCell(const CellFaces& faces, const WindDirections& winds, CellAmounts& amounts)
-      : ground_(plan_faces(faces.ground)), winds_(winds), amounts_(amounts) {
+  PlanOfCell(const CellFaces& faces, const WindDirections& winds, const std::vector<ZoneTrapezoid>* within, CellForm& form)
+      : ground_(plan_faces(faces.ground)), winds_(winds), within_(within), amounts_(form.amounts), buildings_(form.buildings) {
     std::vector<CellFace> tops = faces.roofs;
     tops.insert(tops.end(), faces.walls.begin(), faces.walls.end());
     tops_ = plan_faces(tops);
   }
   void add_all() {
     for (std::size_t n = 0; n < tops_.size(); ++n) add(n);
-    add_heights_of_buildings();
   }
 
  private:
-  struct OfBuilding {
-    double plan_area_m2 = 0.0, volume_m3 = 0.0;
-  };
-
   void add(std::size_t number) {
     const CellFace& top = tops_[number];
     std::vector<ConvexPiece> seen{piece_of(top)};
@@ -109,7 +120,7 @@ class PlanOfCell {
       if (n != number && tops_[n].high.z > top.low.z - same_roof_m && !seen.empty()) cut_by_roof(seen, tops_[n], n < number);
     });
     cut_by_ground(seen, top, ground_);
-    for (const ConvexPiece& piece : seen) {
+    for (const ConvexPiece& piece : in_zone(seen, within_, top)) {
       const Point3d area = area_vector(piece);
       amounts_.building_plan_area_m2 += area.z;
       buildings_[top.building].plan_area_m2 += area.z;
@@ -136,24 +147,12 @@ class PlanOfCell {
       }
     });
   }
-  void add_heights_of_buildings() {
-    // What is smaller than a square centimetre is rounding
-    std::erase_if(buildings_, [](const auto& b) { return b.second.plan_area_m2 < 1e-4; });
-    amounts_.buildings = buildings_.size();
-    if (buildings_.empty()) return;
-    const auto count = static_cast<double>(buildings_.size());
-    double sum = 0.0, squares = 0.0;
-    for (const auto& [number, b] : buildings_) sum += b.volume_m3 / b.plan_area_m2;
-    amounts_.building_height_mean_m = sum / count;
-    for (const auto& [number, b] : buildings_)
-      squares += std::pow(b.volume_m3 / b.plan_area_m2 - amounts_.building_height_mean_m, 2);
-    amounts_.building_height_std_m = std::sqrt(squares / count);
-  }
 
   std::vector<CellFace> ground_, tops_;
   const WindDirections& winds_;
+  const std::vector<ZoneTrapezoid>* within_;
   CellAmounts& amounts_;
-  std::map<std::uint32_t, OfBuilding> buildings_;
+  std::map<std::uint32_t, BuildingPart>& buildings_;
 };
 
 /// Whether two walls face away from each other.
@@ -187,7 +186,8 @@ void cut_by_party_walls(std::vector<ConvexPiece>& pieces, const CellFace& wall, 
 
 /// An upright wall along a side that two triangles of the ground share lies in the columns of both, and is cut twice by the same
 /// or the higher ground, which changes nothing more.
-void add_walls(const CellFaces& faces, const WindDirections& winds, CellAmounts& amounts) {
+void add_walls(const CellFaces& faces, const WindDirections& winds, const std::vector<ZoneTrapezoid>* within,
+               CellAmounts& amounts) {
   const std::vector<CellFace> ground = plan_faces(faces.ground);
   std::vector<CellFace> others = faces.walls;
   others.insert(others.end(), faces.walls_at_border.begin(), faces.walls_at_border.end());
@@ -196,7 +196,7 @@ void add_walls(const CellFaces& faces, const WindDirections& winds, CellAmounts&
     std::vector<ConvexPiece> pieces{piece_of(wall)};
     cut_by_party_walls(pieces, wall, others);
     cut_by_ground(pieces, wall, ground);
-    for (const ConvexPiece& piece : pieces) {
+    for (const ConvexPiece& piece : in_zone(pieces, within, wall)) {
       const Point3d area = area_vector(piece);
       amounts.wall_area_m2 += norm(area);
       add_frontal(area, winds, amounts);
@@ -206,11 +206,43 @@ void add_walls(const CellFaces& faces, const WindDirections& winds, CellAmounts&
 
 }  // namespace
 
-CellAmounts amounts_of(const CellFaces& faces, const WindDirections& winds) {
-  CellAmounts amounts;
-  PlanOfCell(faces, winds, amounts).add_all();
-  add_walls(faces, winds, amounts);
-  return amounts;
+void CellForm::add(const CellForm& other) {
+  const CellAmounts& from = other.amounts;
+  amounts.building_plan_area_m2 += from.building_plan_area_m2;
+  amounts.roof_area_m2 += from.roof_area_m2;
+  amounts.wall_area_m2 += from.wall_area_m2;
+  for (std::size_t k = 0; k < wind_directions; ++k) amounts.frontal_area_m2[k] += from.frontal_area_m2[k];
+  amounts.volume_m3 += from.volume_m3;
+  amounts.height_moment_m4 += from.height_moment_m4;
+  amounts.height_max_m = std::max(amounts.height_max_m, from.height_max_m);
+  for (const auto& [number, part] : other.buildings) {
+    buildings[number].plan_area_m2 += part.plan_area_m2;
+    buildings[number].volume_m3 += part.volume_m3;
+  }
+}
+
+CellAmounts CellForm::all() const {
+  std::vector<double> heights_m;
+  // What is smaller than a square centimetre is rounding
+  for (const auto& [number, b] : buildings)
+    if (b.plan_area_m2 >= 1e-4) heights_m.push_back(b.volume_m3 / b.plan_area_m2);
+  CellAmounts result = amounts;
+  result.buildings = heights_m.size();
+  if (heights_m.empty()) return result;
+  const auto count = static_cast<double>(heights_m.size());
+  double sum = 0.0, squares = 0.0;
+  for (const double h : heights_m) sum += h;
+  result.building_height_mean_m = sum / count;
+  for (const double h : heights_m) squares += std::pow(h - result.building_height_mean_m, 2);
+  result.building_height_std_m = std::sqrt(squares / count);
+  return result;
+}
+
+CellForm form_of(const CellFaces& faces, const WindDirections& winds, const std::vector<ZoneTrapezoid>* within) {
+  CellForm form;
+  PlanOfCell(faces, winds, within, form).add_all();
+  add_walls(faces, winds, within, form.amounts);
+  return form;
 }
 
 }  // namespace farlod

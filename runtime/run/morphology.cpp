@@ -9,14 +9,32 @@
 #include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "run/cell_amounts.hpp"
+#include "run/cell_crowns.hpp"
 #include "run/cell_faces.hpp"
 #include "run/cells_in_parallel.hpp"
 #include "run/facing.hpp"
 #include "run/memory_limit.hpp"
+#include "run/morphology_of_package.hpp"
 #include "run/package_contents.hpp"
 
 namespace farlod {
 namespace {
+
+CellMorphology morphology_of(const PackageReader& reader, Cell cell, const WindDirections& winds) {
+  const package::Manifest& m = reader.manifest();
+  CellMorphology result;
+  result.cell = {cell.i, cell.j};
+  const auto [low, high] = m.grid.square_of(cell);
+  for (std::size_t n = 0; const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
+    result.corners_projected[n++] = horizontal(m.projected_from_grid({corner.x, corner.y, 0.0}));
+  const CellFaces faces = faces_of(reader, cell);
+  result.amounts = form_of(faces, winds).all();
+  result.vegetation = vegetation_of(reader, cell, faces);
+  result.amounts.plan_area_m2 = m.grid.cell_edge_m * m.grid.cell_edge_m;
+  return result;
+}
+
+}  // namespace
 
 void require_buildings_cut_at_borders(const package::Manifest& m) {
   if (m.pixels && m.buildings == 0)
@@ -34,49 +52,39 @@ WindDirections winds_of(const package::Manifest& m) {
   return winds;
 }
 
-CellMorphology morphology_of(const PackageReader& reader, Cell cell, const WindDirections& winds) {
-  const package::Manifest& m = reader.manifest();
-  CellMorphology result;
-  result.cell = {cell.i, cell.j};
-  const auto [low, high] = m.grid.square_of(cell);
-  for (std::size_t n = 0; const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    result.corners_projected[n++] = horizontal(m.projected_from_grid({corner.x, corner.y, 0.0}));
-  result.amounts = amounts_of(faces_of(reader, cell), winds);
-  result.amounts.plan_area_m2 = m.grid.cell_edge_m * m.grid.cell_edge_m;
-  return result;
-}
-
-}  // namespace
-
-double CellMorphology::lambda_f_mean() const {
+double UrbanForm::lambda_f_mean() const {
   const auto& areas_m2 = amounts.frontal_area_m2;
   return std::accumulate(areas_m2.begin(), areas_m2.end(), 0.0) / (wind_directions * amounts.plan_area_m2);
 }
 
-double CellMorphology::complete_aspect_ratio() const {
+double UrbanForm::complete_aspect_ratio() const {
   return (amounts.wall_area_m2 + amounts.roof_area_m2 + amounts.plan_area_m2 - amounts.building_plan_area_m2) /
          amounts.plan_area_m2;
 }
 
-std::optional<double> CellMorphology::height_to_width() const {
+std::optional<double> UrbanForm::height_to_width() const {
   // Rounding leaves a little ground in a cell without any
   constexpr double least_ground_share = 1e-6;
   if (lambda_p() > 1.0 - least_ground_share) return std::nullopt;
   return 0.5 * amounts.wall_area_m2 / (amounts.plan_area_m2 - amounts.building_plan_area_m2);
 }
 
-std::optional<double> CellMorphology::height_mean_m() const {
+std::optional<double> UrbanForm::vegetation_fraction() const {
+  return vegetation ? std::optional(vegetation->plan_area_m2 / amounts.plan_area_m2) : std::nullopt;
+}
+
+std::optional<double> UrbanForm::height_mean_m() const {
   if (!(amounts.volume_m3 > 0.0)) return std::nullopt;
   return amounts.volume_m3 / amounts.building_plan_area_m2;
 }
 
-std::optional<double> CellMorphology::height_std_m() const {
+std::optional<double> UrbanForm::height_std_m() const {
   const auto mean_m = height_mean_m();
   if (!mean_m) return std::nullopt;
   return std::sqrt(std::max(0.0, amounts.height_moment_m4 / amounts.building_plan_area_m2 - *mean_m * *mean_m));
 }
 
-std::optional<Roughness> CellMorphology::roughness_macdonald() const {
+std::optional<Roughness> UrbanForm::roughness_macdonald() const {
   constexpr double a = 4.43, beta = 1.0, drag = 1.2, karman = 0.4;
   const auto height_m = height_mean_m();
   if (!height_m) return std::nullopt;
@@ -87,7 +95,7 @@ std::optional<Roughness> CellMorphology::roughness_macdonald() const {
   return Roughness{length * *height_m, displaced * *height_m};
 }
 
-std::optional<Roughness> CellMorphology::roughness_kanda() const {
+std::optional<Roughness> UrbanForm::roughness_kanda() const {
   constexpr double a0 = 1.29, b0 = 0.36, c0 = -0.17, a1 = 0.71, b1 = 20.21, c1 = -0.77;
   const auto macdonald = roughness_macdonald();
   if (!macdonald) return std::nullopt;

@@ -222,9 +222,11 @@ TEST_F(Info, MarksTheReportInThePictureOfTheCity) {
 TEST_F(Info, RefusesInOneLine) {
   folder.write("old.json", R"([{"code": 107, "position": [1, 2, 3]}])");
   for (const auto& [name, arguments, exit_code, said] :
-       {unusable("", "lost.farlod", {"lost.farlod is not a package"}), wrong_usage("", "", {"PACKAGE is required"}),
+       {unusable("", "lost.farlod", {"lost.farlod is not a package"}),
+        wrong_usage("", "", {"PACKAGE is required"}),
         wrong_usage("", "a.farlod --cell 3", {"--cell", "\"3\" is not of the form I,J"}),
-        wrong_usage("", "a.farlod --cell 1,2,3", {"--cell", "I,J"}), wrong_usage("", "a.farlod --cell 1,x", {"--cell", "I,J"}),
+        wrong_usage("", "a.farlod --cell 1,2,3", {"--cell", "I,J"}),
+        wrong_usage("", "a.farlod --cell 1,x", {"--cell", "I,J"}),
         unusable("", "a.farlod --cell 99,0", {"a.farlod has no cell 99,0: i goes from"}),
         wrong_usage("", "a.farlod --obj o.obj", {"--obj", "it goes with --cell"}),
         wrong_usage("", "a.farlod --cell 0,0 --png o.jpg", {"--png", "o.jpg", ".png, .svg, .pdf"}),
@@ -232,6 +234,8 @@ TEST_F(Info, RefusesInOneLine) {
         wrong_usage("", "a.farlod --cell 0,0 --png o.png --report r.geojson", {"--report", "without --cell"}),
         wrong_usage("", "a.farlod --cells cells.xyz", {"--cells", "cells.xyz", ".nc, .csv, .gpkg, .geojson, .fgb"}),
         wrong_usage("", "a.farlod --cells cells", {"--cells", "choose one of"}),
+        wrong_usage("", "a.farlod --svf 2", {"--svf", "it goes with --cells"}),
+        wrong_usage("", "a.farlod --cells cells.csv --svf 0", {"--svf", "0.05"}),
         unusable("", "a.farlod --cells lost/cells.csv", {"lost/cells.csv", "no folder lost"}),
         unusable("", "lost.farlod --cells cells.csv", {"lost.farlod is not a package"}),
         unusable("", "a.farlod --png o.png --report lost.geojson", {"lost.geojson"}),

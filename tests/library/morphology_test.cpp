@@ -6,56 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "farlod/error.hpp"
+#include "farlod/raster.hpp"
+#include "tests/library/form_town.hpp"
 #include "tests/library/packed_sample.hpp"
 #include "tests/scenes/footprints_text.hpp"
+#include "tests/scenes/planted_crowns.hpp"
 
 namespace farlod::library {
 namespace {
 
 using scenes::building;
-
-/// East of the central meridian of the zone, so that grid north and true north differ.
-constexpr Point2d form_corner{560000.0, 5500000.0};
-
-/// Coordinates relative to a cell are floats of some micrometres; surfaces are 100 m long.
-constexpr double form_rounding_m2 = 1e-3;
-
-/// Footprints, packed in cells of any size.
-class FormTown {
- public:
-  explicit FormTown(const scenes::FootprintsText& footprints) : text_(footprints.text()) {}
-
-  [[nodiscard]] std::vector<CellMorphology> cells(double cell_edge_m, AlignMode align = AlignMode::none) const {
-    return morphology_of_cells(packed(cell_edge_m, align));
-  }
-  [[nodiscard]] Package packed(double cell_edge_m, AlignMode align, Assign assign = Assign::clip) const {
-    std::ofstream(folder_.file("town.geojson")) << text_;
-    PackSettings settings;
-    settings.inputs = {folder_.file("town.geojson")};
-    settings.output = folder_.file("town" + std::to_string(++packages_));
-    settings.cell_edge_m = cell_edge_m;
-    settings.align = align;
-    settings.assign = assign;
-    Report report;
-    (void)pack(settings, report);
-    return Package(settings.output);
-  }
-
- private:
-  std::string text_;
-  scenes::TemporaryFolder folder_;
-  mutable int packages_ = 0;
-};
-
-Box2d form_box(double west, double south, double east, double north) {
-  return {form_corner + Point2d{west, south}, form_corner + Point2d{east, north}};
-}
 
 CellAmounts amounts_together(const std::vector<CellMorphology>& cells) {
   CellAmounts sum;
@@ -72,9 +37,6 @@ CellAmounts amounts_together(const std::vector<CellMorphology>& cells) {
   }
   return sum;
 }
-
-/// A house of 40 m × 20 m × 10 m, whose long sides face south and north of the map.
-FormTown form_house() { return FormTown(scenes::FootprintsText().add(building("a", 10.0), form_box(0, 0, 40, 20))); }
 
 TEST(Morphology, AHouseHasTheAreasOfItsSidesInCellsOfAnySize) {
   const FormTown town = form_house();
@@ -204,6 +166,64 @@ TEST(Morphology, BuildingsOfACellCountOnceEach) {
   EXPECT_EQ(built, 4U);
 }
 
+/// Two upright cylinders of 5 m radius and 8 m height whose axes are 5 m apart, and a square of 4 m turned by 30°, 12 m high.
+std::vector<CellMorphology> cells_with_crowns(double cell_edge_m) {
+  const FormTown town = form_house();
+  const auto folder = town.folder_of(cell_edge_m, AlignMode::none);
+  CrownsOfCity crowns = scenes::crowns_for(folder);
+  const auto [low, high] = crowns.grid().rectangle();
+  // Wherever the cells lie; the ground is at 0
+  const Point2d middle = 0.5 * (low + high);
+  crowns.add(middle, 2.0, 8.0, 5.0, CrownShape::cylinder, Foliage::unknown);
+  crowns.add(middle + Point2d{5.0, 0.0}, 2.0, 8.0, 5.0, CrownShape::cylinder, Foliage::unknown);
+  crowns.add(middle - Point2d{13.0, 0.0}, 2.0, 12.0, 2.0, CrownShape::prism, Foliage::unknown, std::numbers::pi / 6.0);
+  scenes::plant(crowns, folder);
+  return morphology_of_cells(Package(folder));
+}
+
+TEST(Morphology, CrownsCoverTheirUnionInCellsOfAnySize) {
+  constexpr double r = 5.0, d = 5.0;
+  const double lens = 2.0 * r * r * std::acos(d / (2.0 * r)) - 0.5 * d * std::sqrt(4.0 * r * r - d * d);
+  // At each end of a circle, lines 10 cm apart miss or add half a strip as long as the chord there, 2 · sqrt(2 · 5 m · 0.1 m);
+  // at the corners of the square less
+  constexpr double lines_m2 = 4 * 0.5 * 0.1 * 2.0;
+  for (const double cell_edge_m : {7.0, 13.0, 50.0}) {
+    SCOPED_TRACE(cell_edge_m);
+    double area_m2 = 0.0, heights_m = 0.0;
+    std::size_t count = 0;
+    for (const CellMorphology& cell : cells_with_crowns(cell_edge_m)) {
+      ASSERT_TRUE(cell.vegetation);
+      area_m2 += *cell.vegetation_fraction() * cell.amounts.plan_area_m2;
+      heights_m += cell.vegetation->height_mean_m * static_cast<double>(cell.vegetation->count);
+      count += cell.vegetation->count;
+    }
+    EXPECT_NEAR(area_m2, 2.0 * std::numbers::pi * r * r - lens + 16.0, lines_m2);
+    EXPECT_EQ(count, 3U);
+    EXPECT_NEAR(heights_m, 8.0 + 8.0 + 12.0, 1e-3);
+  }
+}
+
+TEST(Morphology, APackageWithoutTreesTellsNothingOfThem) {
+  for (const CellMorphology& cell : form_house().cells(50.0)) EXPECT_FALSE(cell.vegetation || cell.vegetation_fraction());
+}
+
+/// As many values as columns, so that none stands below the name of another one.
+TEST(Morphology, EachColumnHasItsValue) {
+  CellMorphology cell;
+  cell.amounts.plan_area_m2 = 400.0;
+  cell.amounts.frontal_area_m2.back() = 100.0;
+  cell.vegetation = CellVegetation{100.0, 3, 7.5};
+  const auto columns = morphology_columns();
+  const auto values = morphology_values(cell);
+  ASSERT_EQ(columns.size(), values.size());
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    if (columns[n].name == "area_m2") EXPECT_EQ(values[n], 400.0);
+    if (columns[n].name == "vegetation_fraction" || columns[n].name == "lambda_f_337") EXPECT_EQ(values[n], 0.25);
+    if (columns[n].name == "crown_height_mean_m") EXPECT_EQ(values[n], 7.5);
+    if (columns[n].name == "height_mean_m") EXPECT_FALSE(values[n]);
+  }
+}
+
 TEST(Morphology, IsTheSameForAnyNumberOfThreads) {
   const Package package(PackedSample::shared().folder());
   RunSettings one, many;
@@ -218,6 +238,39 @@ TEST(Morphology, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(a[n].amounts.height_moment_m4, b[n].amounts.height_moment_m4);
     EXPECT_EQ(a[n].amounts.frontal_area_m2, b[n].amounts.frontal_area_m2);
   }
+}
+
+/// A house alone: its roof sees the whole sky, its walls see half of it, and the ground what a raster has there. The corner of
+/// four cells is in its middle, so that all have the same.
+TEST(Morphology, SkyOfCellsIsThatOfTheirReceivers) {
+  constexpr double horizon_rounding = 2e-3;  // of 320 azimuths
+  const FormTown town = form_house();
+  const Package package = town.packed(100.0, AlignMode::none);
+  const std::vector<CellSky> skies = sky_of_cells(package, 1.0);
+  ASSERT_EQ(skies.size(), morphology_of_cells(package).size());
+  const Raster raster = evaluate_raster(package, plan_raster(package, 1.0, package.description().outline_projected),
+                                        {.above = HeightAbove::ground, .height_m = 0.0});
+  double sum = 0.0, count = 0.0;
+  std::size_t built = 0;
+  for (const CellSky& sky : skies) {
+    if (sky.ground) sum += *sky.ground, count += 1.0;
+    if (!sky.walls) continue;
+    ++built;
+    EXPECT_NEAR(*sky.walls, 0.5, horizon_rounding);
+    EXPECT_NEAR(*sky.roofs, 1.0, horizon_rounding);
+    EXPECT_LT(*sky.ground, 0.999);
+  }
+  EXPECT_EQ(built, 4U);
+  EXPECT_NEAR(sum / count, *raster.summary.svf_mean, horizon_rounding);
+}
+
+TEST(Morphology, SkyOfCellsRefusesWhatMakesNoSense) {
+  const FormTown town = form_house();
+  const Package package = town.packed(100.0, AlignMode::none);
+  EvaluationSettings dry;
+  dry.dry_run = true;
+  EXPECT_THROW((void)sky_of_cells(package, 0.0), InvalidArgument);
+  EXPECT_THROW((void)sky_of_cells(package, 2.0, dry), InvalidArgument);
 }
 
 TEST(Morphology, NeedsBuildingsThatAreCutAtTheBorders) {

@@ -146,6 +146,18 @@ CALLS = {
         ((20.0,), dict(light=800.0), "farlod.Light"),
         ((20.0,), dict(light=farlod.Light(180.0, 30.0, 800.0, 100.0), quantities=["illuminance"]), "lx"),
     ],
+    "cells": [
+        ((), dict(threads="two"), "threads"),
+        ((), dict(progress=3), "progress"),
+        (("fine",), {}, "svf"),
+        ((0.0,), {}, "spacing_m"),
+        ((5.0,), dict(engine="fast"), '"auto"'),
+        ((5.0,), dict(zones=NOWHERE), "zones"),
+        ((), dict(zones=[1]), "GeoDataFrame"),
+        ((), dict(zones=NOWHERE), "CRS"),
+        ((), dict(zones=LINE), "polygons"),
+        ((), dict(zones=geopandas.GeoSeries([shapely.geometry.Polygon()], crs=32632)), "area"),
+    ],
     "ground": [((0.0,), {}, "step"), ((5.0,), dict(threads="two"), "threads")],
     "surfaces": [
         (("doors",), {}, '"roofs"'),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Unpack, get_args
 
 from farlod import _arguments, _grids, _plots, _surfaces
 from farlod._answers import PackageCheck
+from farlod._cells import CellsOfCity
 from farlod._hemispheres import HemispheresOfCity
 from farlod._irradiation import IrradiationOfCity
 from farlod._light import Light
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity):
+class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity, CellsOfCity):
     """A city in memory: an open package. Made by :func:`farlod.open` and :func:`farlod.pack`.
 
     Any number of threads may use one city. It can be pickled, and is opened again where it is unpickled. As a context manager

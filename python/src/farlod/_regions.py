@@ -12,7 +12,7 @@ from farlod._receivers import is_geo
 from farlod.errors import InvalidArgument
 
 
-def _polygons_of(geometry: Any) -> Iterator[Any]:
+def _polygons_of(geometry: Any, name: str) -> Iterator[Any]:
     kind = getattr(geometry, "geom_type", None)
     if kind is not None and geometry.is_empty:
         return
@@ -20,9 +20,20 @@ def _polygons_of(geometry: Any) -> Iterator[Any]:
         yield geometry
     elif kind in ("MultiPolygon", "GeometryCollection"):
         for part in geometry.geoms:
-            yield from _polygons_of(part)
+            yield from _polygons_of(part, name)
     elif geometry is not None:
-        raise InvalidArgument(f"mask has a {kind or type(geometry).__name__}: give polygons")
+        raise InvalidArgument(f"{name} has a {kind or type(geometry).__name__}: give polygons")
+
+
+def _rings_of(geometry: Any, name: str) -> list[list[tuple[float, float]]]:
+    polygons = _polygons_of(geometry, name)
+    return [[(x, y) for x, y, *_ in ring.coords] for polygon in polygons for ring in (polygon.exterior, *polygon.interiors)]
+
+
+def _in_city_crs(shapes: Any, crs_wkt: str, name: str) -> list[Any]:
+    if shapes.geometry.crs is None:
+        raise InvalidArgument(f"{name} has no CRS: set it with set_crs(), so that it can be brought into the city's")
+    return list(shapes.geometry.to_crs(crs_wkt))
 
 
 def region_of(mask: Any, crs_wkt: str) -> Any:
@@ -30,17 +41,15 @@ def region_of(mask: Any, crs_wkt: str) -> Any:
     InvalidArgument."""
     if mask is None:
         return None
-    if is_geo(mask):
-        if mask.geometry.crs is None:
-            raise InvalidArgument("mask has no CRS: set it with set_crs(), so that it can be brought into the city's")
-        geometries = list(mask.geometry.to_crs(crs_wkt))
-    else:
-        geometries = [mask]
-    rings = []
-    for geometry in geometries:
-        for polygon in _polygons_of(geometry):
-            for ring in (polygon.exterior, *polygon.interiors):
-                rings.append([(x, y) for x, y, *_ in ring.coords])
+    geometries = _in_city_crs(mask, crs_wkt, "mask") if is_geo(mask) else [mask]
+    rings = [ring for geometry in geometries for ring in _rings_of(geometry, "mask")]
     if not rings:
         raise InvalidArgument("mask has no polygon: leave it out to evaluate everything")
     return _runtime.Region(rings)
+
+
+def zones_of(zones: Any, crs_wkt: str) -> list[list[list[tuple[float, float]]]]:
+    """The rings of each row of a GeoSeries or GeoDataFrame, in the city's CRS. Raises InvalidArgument."""
+    if not is_geo(zones):
+        raise InvalidArgument(f"zones is a {type(zones).__name__}: give a GeoDataFrame or GeoSeries of polygons")
+    return [_rings_of(geometry, "zones") for geometry in _in_city_crs(zones, crs_wkt, "zones")]

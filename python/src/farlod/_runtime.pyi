@@ -139,6 +139,18 @@ class _Surfaces(TypedDict):
     points: dict[str, Any]
     summary: dict[str, Any]
 
+class _Cells(TypedDict):
+    i: npt.NDArray[np.int32]
+    j: npt.NDArray[np.int32]
+    corners_m: _Floats64
+    columns: dict[str, _Floats64]
+
+def cells_of(
+    package: Package, svf_spacing_m: float | None, settings: EvaluationSettings, caller: CallerSettings
+) -> _Cells: ...
+def zones_of(
+    package: Package, zones_m: Sequence[Sequence[Sequence[tuple[float, float]]]], caller: CallerSettings
+) -> dict[str, _Floats64]: ...
 def evaluate_points(
     package: Package, points: PointColumns, placing: Placing, settings: EvaluationSettings, caller: CallerSettings
 ) -> _PointAnswers: ...
