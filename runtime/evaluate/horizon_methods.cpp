@@ -181,7 +181,7 @@ class PixelMethod final : public MethodWithHorizons {
   [[nodiscard]] CellReceivers evaluate_by_pixels(const PixelCity& city, const CellReceivers& cell,
                                                  const SkyAnswers& answers) const {
     const auto start = EvaluationCounter::Clock::now();
-    PixelHorizon pixels(city, cell.cell);
+    PixelHorizon pixels(city, cell.cell, evaluation_.further.needs_profiles() ? HorizonUse::each_azimuth : HorizonUse::sum);
     const ReceiversOnPixels found = pixels.packets_of(cell.receivers);
     CellGeometry geometry = CellGeometry::of_pixels(evaluation_, cell.cell);
     draw(geometry, &pixels, found.on_pixels, cell, answers,

@@ -123,7 +123,7 @@ void PixelWindow::look_at(std::int32_t column, std::int32_t row) {
   if (highest_ && column - margin == column_ && row - margin == row_) return;
   column_ = column - margin;
   row_ = row - margin;
-  is_torn_ = false;
+  torn_ = 0;
   for (std::int32_t y = 0; y < rows; ++y)
     for (std::int32_t x = 0; x < columns; ++x) fill(x, y);
   highest_.emplace(planes_.data(), columns, columns, rows, around_far_step);
@@ -144,10 +144,12 @@ void PixelWindow::fill(std::int32_t x, std::int32_t y) {
         four.has_height[k] ? static_cast<float>(middle.middle_height_m[k] - four.height_m[k]) : 0.0F;
   at(PixelPlane::torn_east, 0, pixel) = four.joined[0] ? no_height_m : 0.0F;
   at(PixelPlane::torn_north, 0, pixel) = four.joined[3] ? no_height_m : 0.0F;
-  is_torn_ |= (four.has_height[0] || four.has_height[1]) && !four.joined[0];
-  is_torn_ |= (four.has_height[0] || four.has_height[3]) && !four.joined[3];
+  const auto is_torn_from = [&](std::size_t neighbor, std::size_t side) {
+    return (four.has_height[0] || four.has_height[neighbor]) && !four.joined[side];
+  };
+  if (is_torn_from(1, 0) || is_torn_from(3, 3)) ++torn_;
 }
 
-PixelWindowView PixelWindow::view() const { return {planes_.data(), columns, highest_->view(), is_torn_}; }
+PixelWindowView PixelWindow::view() const { return {planes_.data(), columns, highest_->view(), torn_ > 0}; }
 
 }  // namespace farlod

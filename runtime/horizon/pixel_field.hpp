@@ -92,6 +92,8 @@ class PixelWindow {
   /// Moves to the square with this south-western pixel.
   void look_at(std::int32_t column, std::int32_t row);
   [[nodiscard]] PixelWindowView view() const;
+  /// Of its pixels, how many are torn from a neighbor.
+  [[nodiscard]] double torn_share() const { return static_cast<double>(torn_) / plane; }
   [[nodiscard]] std::int32_t x_of(std::int32_t column) const { return column - column_; }
   [[nodiscard]] std::int32_t y_of(std::int32_t row) const { return row - row_; }
 
@@ -103,7 +105,7 @@ class PixelWindow {
 
   const PixelField& field_;
   std::int32_t column_ = 0, row_ = 0;  ///< of the window's first pixel
-  bool is_torn_ = false;
+  std::size_t torn_ = 0;               ///< pixels that are, from that to the east or to the north
   std::vector<float> planes_;
   std::optional<HighestPixels> highest_;  ///< once it looks at something
 };

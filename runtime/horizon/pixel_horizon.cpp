@@ -26,6 +26,16 @@ std::vector<Point2d> directions_of(const AzimuthSampling& azimuths, const GridRo
 
 constexpr auto row_length = static_cast<std::int32_t>(packet_lanes), block_rows = static_cast<std::int32_t>(PixelBlock::rows);
 
+/// Azimuths from one that is drawn to the next, where so many of the pixels nearby are torn: what is torn makes horizons jump,
+/// and what is narrow is missed between two azimuths.
+std::size_t step_of(std::size_t azimuths, double torn_share) {
+  constexpr std::size_t enough = 64;
+  constexpr double few = 0.02;
+  std::size_t step = torn_share == 0.0 ? 4 : torn_share < few ? 2 : 1;
+  while (step > 1 && (azimuths % step != 0 || azimuths / step < enough)) step /= 2;
+  return step;
+}
+
 /// A window's square, a place in pixels, a column of blocks in it, and a row: packets in this order fill blocks.
 std::array<std::int32_t, 6> order_of_place(std::int32_t column, std::int32_t row, const PixelOffset& offset) {
   return {row / PixelWindow::edge, column / PixelWindow::edge, offset.north, offset.east, column / row_length, row};
@@ -40,8 +50,8 @@ PixelCity::PixelCity(const package::Manifest& m, std::span<const float> height_m
       directions(directions_of(azimuths, m.grid.rotation)),
       paths(directions, field) {}
 
-PixelHorizon::PixelHorizon(const PixelCity& city, Cell cell)
-    : city_(city), corner_grid_(city.manifest.grid.corner_of(cell)), window_(city.field) {}
+PixelHorizon::PixelHorizon(const PixelCity& city, Cell cell, HorizonUse use)
+    : city_(city), use_(use), corner_grid_(city.manifest.grid.corner_of(cell)), window_(city.field) {}
 
 Point2d PixelHorizon::pixels_at(Point2d p_cell) const {
   const package::SurfacePixels& pixels = *city_.manifest.pixels;
@@ -138,7 +148,8 @@ void PixelHorizon::draw(std::span<const ReceiverPacket> packets, std::span<Packe
     block.window_x = window_.x_of(block.column);
     block.window_y = window_.y_of(block.row);
   }
-  pixel_kernels().march(window_.view(), city_.field.view(), paths_from(first.offset).paths(), blocks_);
+  const std::size_t step = use_ == HorizonUse::sum ? step_of(azimuths, window_.torn_share()) : 1;
+  pixel_kernels().march(window_.view(), city_.field.view(), paths_from(first.offset).paths(), blocks_, step);
   for (std::size_t n = 0; n < packets.size(); ++n)
     if (packets[n].count < packet_lanes)
       copy_drawn(packets[n], std::span(drawn_).subspan(n * azimuths, azimuths), horizons[n].drawn_slopes());

@@ -33,12 +33,15 @@ struct ReceiversOnPixels {
   std::vector<std::uint32_t> others;
 };
 
+/// What horizons are for: where their sky is summed up, those between two that are nearly alike need not be drawn.
+enum class HorizonUse : std::uint8_t { sum, each_azimuth };
+
 /// Horizons of receivers of one cell above a raster's pixels: rays march over all pixels, as far as the raster reaches. Those who
 /// stand alike in their pixels march together, such as at the centres. docs/concepts.md, "A march over pixels".
 class PixelHorizon {
  public:
   /// The city must outlive it.
-  PixelHorizon(const PixelCity& city, Cell cell);
+  PixelHorizon(const PixelCity& city, Cell cell, HorizonUse use);
 
   [[nodiscard]] ReceiversOnPixels packets_of(std::span<const Receiver> receivers) const;
   /// Draws the horizons of packets that packets_of() made; of one group.
@@ -63,6 +66,7 @@ class PixelHorizon {
   [[nodiscard]] const PixelPaths& paths_from(const PixelOffset& offset);
 
   const PixelCity& city_;
+  HorizonUse use_;
   Point2d corner_grid_;
   PixelWindow window_;
   PixelOffset offset_;

@@ -224,26 +224,65 @@ struct FarRay {
   }
 };
 
+/// The horizons of blocks at the azimuths of some paths.
 template <bool is_torn>
-FARLOD_LANES void march_all(const PixelWindowView& window, const PixelFieldView& field, std::span<const PixelPath> paths,
-                            std::span<const PixelBlock> blocks) {
+struct HorizonsOfBlocks {
+  const PixelWindowView& window;
+  const PixelFieldView& field;
+  std::span<const PixelPath> paths;
+
+  FARLOD_LANES Horizon march_at(std::size_t k, const PixelBlock& block) const {
+    Horizon horizon(block);
+    march_near(window, paths[k], block, horizon);
+    FarRay<is_torn>{field, paths[k], block, horizon}.march();
+    return horizon;
+  }
+  FARLOD_LANES void draw_at(std::size_t k, const PixelBlock& block) const {
+    const Horizon horizon = march_at(k, block);
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r)
+      if (block.slopes[r] != nullptr) store(horizon.slope[r], at(block, r, k));
+  }
+  /// In the middle between two azimuths: of each receiver by itself, so that its horizon does not depend on others.
+  FARLOD_LANES void draw_between(std::size_t before, std::size_t after, std::size_t k, const PixelBlock& block) const {
+    Floats mean[PixelBlock::rows]{};
+    Mask is_steep[PixelBlock::rows]{};
+    std::uint32_t steep = 0;
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
+      if (block.slopes[r] == nullptr) continue;
+      const Floats a = load(at(block, r, before)), b = load(at(block, r, after));
+      mean[r] = broadcast(0.5F) * (a + b);
+      // Where there is no receiver, both are the same
+      is_steep[r] = max(a - b, b - a) > broadcast(level_slope);
+      steep |= bits_of(is_steep[r]);
+    }
+    const Horizon horizon = steep != 0 ? march_at(k, block) : Horizon(block);
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r)
+      if (block.slopes[r] != nullptr) store(choose(is_steep[r], horizon.slope[r], mean[r]), at(block, r, k));
+  }
+  FARLOD_LANES static float* at(const PixelBlock& block, std::size_t row, std::size_t k) {
+    return block.slopes[row] + k * lane_count;
+  }
+};
+
+template <bool is_torn>
+FARLOD_LANES void march_all(const HorizonsOfBlocks<is_torn>& horizons, std::span<const PixelBlock> blocks, std::size_t step) {
+  const std::size_t azimuths = horizons.paths.size();
   // Azimuth by azimuth, so that a path is in the processor's cache for all blocks
-  for (std::size_t k = 0; k < paths.size(); ++k)
-    for (const PixelBlock& block : blocks) {
-      Horizon horizon(block);
-      march_near(window, paths[k], block, horizon);
-      FarRay<is_torn>{field, paths[k], block, horizon}.march();
-      for (std::size_t r = 0; r < PixelBlock::rows; ++r)
-        if (block.slopes[r] != nullptr) store(horizon.slope[r], block.slopes[r] + k * lane_count);
+  for (std::size_t k = 0; k < azimuths; k += step)
+    for (const PixelBlock& block : blocks) horizons.draw_at(k, block);
+  for (std::size_t half = step / 2; half > 0; half /= 2)
+    for (std::size_t k = half; k < azimuths; k += 2 * half) {
+      const std::size_t after = k + half < azimuths ? k + half : 0;
+      for (const PixelBlock& block : blocks) horizons.draw_between(k - half, after, k, block);
     }
 }
 
 void march(const PixelWindowView& window, const PixelFieldView& field, std::span<const PixelPath> paths,
-           std::span<const PixelBlock> blocks) {
+           std::span<const PixelBlock> blocks, std::size_t step) {
   if (field.is_torn)
-    march_all<true>(window, field, paths, blocks);
+    march_all<true>({window, field, paths}, blocks, step);
   else
-    march_all<false>(window, field, paths, blocks);
+    march_all<false>({window, field, paths}, blocks, step);
 }
 
 }  // namespace

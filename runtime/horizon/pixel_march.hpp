@@ -82,6 +82,10 @@ struct PixelFieldView {
   bool is_torn;
 };
 
+/// From one azimuth to the next, a horizon without a jump differs by less: a jump of it that is missed moves the sky view factor
+/// of 320 azimuths by .0001.
+inline constexpr float level_slope = 0.1F;
+
 /// Receivers above the pixels of a block: four rows of sixteen, from its south-western pixel.
 struct PixelBlock {
   static constexpr std::size_t rows = 4;
@@ -94,9 +98,11 @@ struct PixelBlock {
 };
 
 struct PixelKernels {
-  /// Draws horizons: the largest slope to anything on the way, at least 0, at each azimuth.
+  /// Draws horizons: the largest slope to anything on the way, at least 0, at each azimuth. Rays march at every `step`-th of
+  /// them, a power of two that divides their number. In the middle between two, they march for blocks in which a receiver's
+  /// slopes differ by more than `level_slope`; those of others are the mean of both. docs/concepts.md, "A march over pixels".
   void (*march)(const PixelWindowView& window, const PixelFieldView& field, std::span<const PixelPath> paths,
-                std::span<const PixelBlock> blocks);
+                std::span<const PixelBlock> blocks, std::size_t step);
 };
 
 }  // namespace farlod

@@ -105,7 +105,7 @@ struct Marched {
   std::vector<std::vector<float>> slopes;
 };
 Marched march(const PixelKernels& kernels, const PixelField& field, std::span<const Point2d> directions, std::int32_t column,
-              std::int32_t row, double above_m, const PixelOffset& offset = {}) {
+              std::int32_t row, double above_m, const PixelOffset& offset = {}, std::size_t step = 1) {
   const PixelPaths paths(directions, field, offset);
   const Judge judge(field);
   const Point2d place = offset.in_pixels();
@@ -126,7 +126,7 @@ Marched march(const PixelKernels& kernels, const PixelField& field, std::span<co
   }
   for (std::size_t r = 0; r < PixelBlock::rows; ++r) block.slopes[r] = m.slopes[r].data();
   m.blocks.push_back(block);
-  kernels.march(window.view(), field.view(), paths.paths(), m.blocks);
+  kernels.march(window.view(), field.view(), paths.paths(), m.blocks, step);
   return m;
 }
 
@@ -253,7 +253,32 @@ TEST(PixelMarch, AllTargetsGiveTheSameBits) {
     const Marched expected = march(pixel_kernels(), field, directions, 64, 64, 1.5);
     for (const KernelTarget& target : runnable_kernels())
       EXPECT_EQ(march(*target.pixel, field, directions, 64, 64, 1.5).slopes, expected.slopes) << target.name;
+    const Marched stepped = march(pixel_kernels(), field, directions, 64, 64, 1.5, {}, 4);
+    for (const KernelTarget& target : runnable_kernels())
+      EXPECT_EQ(march(*target.pixel, field, directions, 64, 64, 1.5, {}, 4).slopes, stepped.slopes) << target.name;
   }
+}
+
+/// The mean of both neighbors where they are alike, and what the rays say elsewhere: of each receiver by itself.
+TEST(PixelMarch, BetweenAzimuthsThatAreAlikeIsTheirMean) {
+  const PixelField field = random_pixels(150, 1e9, 3.0, 8).field();
+  const std::vector<Point2d> directions = directions_around(64, 0.05);
+  const Marched all = march(pixel_kernels(), field, directions, 64, 64, 1.5),
+                half = march(pixel_kernels(), field, directions, 64, 64, 1.5, {}, 2);
+  std::size_t means = 0;
+  for (std::size_t r = 0; r < PixelBlock::rows; ++r)
+    for (std::size_t l = 0; l < packet_lanes; ++l)
+      for (std::size_t k = 0; k < directions.size(); ++k) {
+        const auto slope = [&, r = r, l = l](const Marched& marched, std::size_t n) {
+          return marched.slopes[r][n % directions.size() * packet_lanes + l];
+        };
+        const float before = slope(all, k + directions.size() - 1), after = slope(all, k + 1);
+        const bool is_mean = k % 2 == 1 && std::abs(before - after) <= level_slope;
+        EXPECT_EQ(slope(half, k), is_mean ? 0.5F * (before + after) : slope(all, k)) << r << ' ' << l << ' ' << k;
+        means += is_mean ? 1 : 0;
+      }
+  EXPECT_GT(means, 100U);
+  EXPECT_LT(means, 2000U);
 }
 
 TEST(PixelMarch, WhatARowSeesDoesNotDependOnOthers) {
@@ -270,7 +295,7 @@ TEST(PixelMarch, WhatARowSeesDoesNotDependOnOthers) {
       alone.slopes[other] = other == r ? slopes.data() : nullptr;
       if (other != r) std::fill_n(alone.z_m[other], packet_lanes, PixelBlock::no_receiver_m);
     }
-    pixel_kernels().march(window.view(), field.view(), paths.paths(), {&alone, 1});
+    pixel_kernels().march(window.view(), field.view(), paths.paths(), {&alone, 1}, 1);
     EXPECT_EQ(slopes, together.slopes[r]) << r;
   }
 }
