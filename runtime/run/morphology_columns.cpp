@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
-
-#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "farlod/morphology.hpp"
@@ -76,17 +74,21 @@ constexpr MorphologyColumn before_winds[] = {
      [](Morphology c) { return std::optional(c.lambda_f_mean()); }},
 };
 
-/// Where the wind comes from, in whole degrees, rounded down: lambda_f_022 is 22.5°.
-double wind_deg(std::size_t wind) { return 360.0 * static_cast<double>(wind) / static_cast<double>(wind_directions); }
+/// A column for each wind, named by the whole degrees that it comes from, rounded down: lambda_f_022 is 22.5°.
+ColumnDescription wind_column(std::size_t wind) {
+  static_assert(720 % wind_directions == 0);
+  const std::size_t half_degrees = 720 / wind_directions * wind;
+  const std::string whole = std::to_string(half_degrees / 2), half = half_degrees % 2 == 0 ? "" : ".5";
+  return {"lambda_f_" + std::string(3 - whole.size(), '0') + whole, "1",
+          "frontal area density for wind from " + whole + half + "°, clockwise from true north"};
+}
 
 }  // namespace
 
 std::vector<ColumnDescription> morphology_columns() {
   std::vector<ColumnDescription> columns;
   for (const MorphologyColumn& c : before_winds) columns.push_back({c.name, c.unit, c.definition});
-  for (std::size_t k = 0; k < wind_directions; ++k)
-    columns.push_back({fmt::format("lambda_f_{:03.0f}", std::floor(wind_deg(k))), "1",
-                       fmt::format("frontal area density for wind from {:g}°, clockwise from true north", wind_deg(k))});
+  for (std::size_t k = 0; k < wind_directions; ++k) columns.push_back(wind_column(k));
   return columns;
 }
 

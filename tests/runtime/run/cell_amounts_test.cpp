@@ -69,7 +69,7 @@ CellFaces gabled_house() {
 }
 
 TEST(CellAmounts, AGabledHouseHasTheAreaOfItsSlopes) {
-  const CellAmounts a = amounts_of(gabled_house(), true_winds());
+  const CellAmounts a = form_of(gabled_house(), true_winds()).all();
   EXPECT_NEAR(a.building_plan_area_m2, 200.0, rounding_m2);
   EXPECT_NEAR(a.roof_area_m2, 2.0 * 20.0 * std::hypot(5.0, 3.0), rounding_m2);
   EXPECT_NEAR(a.wall_area_m2, 60.0 * 6.0 + 2.0 * 15.0, rounding_m2);
@@ -87,7 +87,7 @@ TEST(CellAmounts, WhatLiesBelowTheGroundDoesNotCount) {
   CellFaces faces = on_ground(0.1);
   add_fan(faces.roofs, {{40, 40, 20}, {60, 40, 20}, {60, 60, 20}, {40, 60, 20}});
   add_box_walls(faces, {{40, 40}, {60, 60}}, -5.0, 20.0);
-  const CellAmounts a = amounts_of(faces, true_winds());
+  const CellAmounts a = form_of(faces, true_winds()).all();
   EXPECT_NEAR(a.building_plan_area_m2, 400.0, rounding_m2);
   EXPECT_NEAR(a.wall_area_m2, 20.0 * (16.0 + 14.0 + 15.0 + 15.0), 10.0 * rounding_m2);
   EXPECT_NEAR(a.frontal_area_m2[12], 20.0 * 16.0, 10.0 * rounding_m2);
@@ -99,7 +99,7 @@ TEST(CellAmounts, AGarageBelowTheGroundIsNoBuilding) {
   CellFaces faces = on_ground(0.0);
   add_fan(faces.roofs, {{40, 40, -1}, {60, 40, -1}, {60, 60, -1}, {40, 60, -1}});
   add_box_walls(faces, {{40, 40}, {60, 60}}, -4.0, -1.0);
-  const CellAmounts a = amounts_of(faces, true_winds());
+  const CellAmounts a = form_of(faces, true_winds()).all();
   EXPECT_EQ(a.building_plan_area_m2 + a.wall_area_m2 + a.frontal_area_m2[0], 0.0);
   EXPECT_EQ(a.buildings, 0U);
 }
@@ -109,7 +109,7 @@ TEST(CellAmounts, RoofsThatCrossCountAtTheHigherOne) {
   CellFaces faces = on_ground(0.0);
   add_fan(faces.roofs, {{40, 40, 10}, {60, 40, 20}, {60, 60, 20}, {40, 60, 10}});
   add_fan(faces.roofs, {{40, 40, 20}, {60, 40, 10}, {60, 60, 10}, {40, 60, 20}}, 1);
-  const CellAmounts a = amounts_of(faces, true_winds());
+  const CellAmounts a = form_of(faces, true_winds()).all();
   EXPECT_NEAR(a.building_plan_area_m2, 400.0, rounding_m2);
   EXPECT_NEAR(a.volume_m3, 400.0 * 17.5, 100.0 * rounding_m2);
   EXPECT_EQ(a.buildings, 2U);
@@ -119,7 +119,7 @@ TEST(CellAmounts, RoofsThatCrossCountAtTheHigherOne) {
 TEST(CellAmounts, AWallAboveASideOfTheGroundCountsOnce) {
   CellFaces faces = on_ground(0.0);
   add_fan(faces.walls, {{20, 20, -1}, {30, 30, -1}, {30, 30, 9}, {20, 20, 9}});
-  EXPECT_NEAR(amounts_of(faces, true_winds()).wall_area_m2, 9.0 * std::hypot(10.0, 10.0), rounding_m2);
+  EXPECT_NEAR(form_of(faces, true_winds()).all().wall_area_m2, 9.0 * std::hypot(10.0, 10.0), rounding_m2);
 }
 
 /// Two walls back to back, of which one turns away: they are a party wall where they are closer than 2 cm.
@@ -128,7 +128,7 @@ TEST(CellAmounts, PartyWallsEndWhereWallsPart) {
   add_fan(faces.walls, {{50, 20, 0}, {50, 30, 0}, {50, 30, 10}, {50, 20, 10}});
   const double off_m = 0.08;  // at the far end: less than a degree
   add_fan(faces.walls, {{50 - off_m, 30, 0}, {50, 20, 0}, {50, 20, 10}, {50 - off_m, 30, 10}});
-  EXPECT_NEAR(amounts_of(faces, true_winds()).wall_area_m2, 2.0 * 100.0 * 0.75, 0.02);
+  EXPECT_NEAR(form_of(faces, true_winds()).all().wall_area_m2, 2.0 * 100.0 * 0.75, 0.02);
 }
 
 }  // namespace
