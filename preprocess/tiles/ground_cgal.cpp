@@ -9,6 +9,7 @@
 #include <CGAL/Projection_traits_xy_3.h>
 #include <CGAL/spatial_sort.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -47,12 +48,11 @@ PagedArray<Kernel::Point_3> to_cgal(const PagedArray<Point3d>& points) {
   return result;
 }
 
-/// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points. `near` is a
-/// face where the search may begin.
-NearestHeight nearest_height(const Network& network, Point2d p, Network::Face_handle near = nullptr) {
+/// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points.
+NearestHeight nearest_height(const Network& network, Point2d p) {
   const auto distance_m = [p](const Kernel::Point_3& q) { return std::hypot(q.x() - p.x, q.y() - p.y); };
   if (network.dimension() == 2) {
-    const Kernel::Point_3& nearest = network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0), near)->point();
+    const Kernel::Point_3& nearest = network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0))->point();
     return {nearest.z(), distance_m(nearest)};
   }
   NearestHeight nearest{0.0, std::numeric_limits<double>::infinity()};
@@ -61,15 +61,42 @@ NearestHeight nearest_height(const Network& network, Point2d p, Network::Face_ha
   return nearest;
 }
 
+Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+using Hull = std::vector<std::pair<Point3d, Point3d>>;
+Hull hull_of(const Network& network) {
+  Hull edges;
+  Network::Face_circulator face = network.incident_faces(network.infinite_vertex());
+  const Network::Face_circulator first = face;
+  do {
+    const int n = face->index(network.infinite_vertex());
+    edges.emplace_back(from_cgal(face->vertex(Network::cw(n))->point()), from_cgal(face->vertex(Network::ccw(n))->point()));
+  } while (++face != first);
+  return edges;
+}
+
+/// The height of the nearest place of the hull, between two points of it, too.
+NearestHeight nearest_of_hull(const Hull& hull, Point2d p) {
+  NearestHeight nearest{0.0, std::numeric_limits<double>::infinity()};
+  for (const auto& [a, b] : hull) {
+    const Point2d along = horizontal(b) - horizontal(a);
+    const double share = std::clamp(dot(p - horizontal(a), along) / dot(along, along), 0.0, 1.0);
+    const double distance_m = norm(horizontal(a) + share * along - p);
+    if (distance_m < nearest.distance_m) nearest = {a.z + share * (b.z - a.z), distance_m};
+  }
+  return nearest;
+}
+
 /// Nodes along the border of the rectangle. All are computed before the first is inserted, so that none is the nearest point of
 /// another one.
 std::vector<Point3d> nodes_beyond(const Network& network, const Box2d& rectangle) {
+  const Hull hull = network.dimension() == 2 ? hull_of(network) : Hull();
   Network::Face_handle last;
   const auto nearest_beyond = [&](Point2d p) -> std::optional<NearestHeight> {
     if (network.dimension() < 2) return nearest_height(network, p);
     last = network.locate(Kernel::Point_3(p.x, p.y, 0.0), last);
     if (!network.is_infinite(last)) return std::nullopt;
-    return nearest_height(network, p, last);
+    return nearest_of_hull(hull, p);
   };
   return border_nodes(rectangle, nearest_beyond);
 }
@@ -126,8 +153,6 @@ void insert_all(PagedArray<Kernel::Point_3> points, Network& network) {
     hint = network.insert(points[n], hint)->face();
   }
 }
-
-Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Height at a place of the plane through three corners.
 double height_in_plane(const std::array<Point3d, 3>& corners, Point2d p) {

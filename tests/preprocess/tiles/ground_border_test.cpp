@@ -80,11 +80,14 @@ TEST(GroundBorder, LeavesWhatIsKnownAsItIs) {
   const Ground ground(kerbs, square_km);
   for (const double x : {1.0, 30.0, 500.0, 998.0})
     for (const double y : {2.5, 300.0, 996.5}) EXPECT_NEAR(ground.height_at({x, y}), height_m(x), 1e-9) << x << ' ' << y;
+  // And it goes on as high as it is where it ends, between two kerbs, too
+  for (const double x : {300.0, 500.0, 700.0}) EXPECT_NEAR(ground.height_at({x, 0.5}), height_m(x), 1.0) << x;
 }
 
 TEST(GroundBorder, MakesNoRampBesideAHill) {
   const Ground ground(hill, square_km);
-  for (double x = 950.0; x <= 1000.0; x += 5.0) EXPECT_NEAR(ground.height_at({x, 500.0}), 600.0, 1.0) << x;
+  // The border, 50 m away, has the mean of what lies as far to both sides of the hill, which falls by 100 m in 460 m
+  for (double x = 950.0; x <= 1000.0; x += 5.0) EXPECT_NEAR(ground.height_at({x, 500.0}), 600.0, 0.5 * 50.0 * 100.0 / 460.0) << x;
   const std::vector<Point3d> reversed(hill.rbegin(), hill.rend());
   EXPECT_EQ(test::triangles_of(Ground(reversed, square_km)), test::triangles_of(ground));
 }
