@@ -9,18 +9,12 @@
 #include <CGAL/Projection_traits_xy_3.h>
 #include <CGAL/spatial_sort.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
-#include <set>
 #include <utility>
-#include <vector>
 
 #include "base/expects.hpp"
 #include "city/geometry.hpp"
 #include "tiles/ground.hpp"
-#include "tiles/ground_border.hpp"
 #include "tiles/modelled_ground.hpp"
 
 namespace farlod::tiles {
@@ -49,99 +43,17 @@ PagedArray<Kernel::Point_3> to_cgal(const PagedArray<Point3d>& points) {
 }
 
 /// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points.
-NearestHeight nearest_height(const Network& network, Point2d p) {
-  const auto distance_m = [p](const Kernel::Point_3& q) { return std::hypot(q.x() - p.x, q.y() - p.y); };
-  if (network.dimension() == 2) {
-    const Kernel::Point_3& nearest = network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0))->point();
-    return {nearest.z(), distance_m(nearest)};
+double height_of_nearest(const Network& network, Point2d p) {
+  if (network.dimension() == 2) return network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0))->point().z();
+  double height = 0.0, least = std::numeric_limits<double>::infinity();
+  for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v) {
+    const double distance = std::hypot(v->point().x() - p.x, v->point().y() - p.y);
+    if (distance >= least) continue;
+    least = distance;
+    height = v->point().z();
   }
-  NearestHeight nearest{0.0, std::numeric_limits<double>::infinity()};
-  for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v)
-    if (const double distance = distance_m(v->point()); distance < nearest.distance_m) nearest = {v->point().z(), distance};
-  return nearest;
+  return height;
 }
-
-Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
-
-using Hull = std::vector<std::pair<Point3d, Point3d>>;
-Hull hull_of(const Network& network) {
-  Hull edges;
-  Network::Face_circulator face = network.incident_faces(network.infinite_vertex());
-  const Network::Face_circulator first = face;
-  do {
-    const int n = face->index(network.infinite_vertex());
-    edges.emplace_back(from_cgal(face->vertex(Network::cw(n))->point()), from_cgal(face->vertex(Network::ccw(n))->point()));
-  } while (++face != first);
-  return edges;
-}
-
-/// The height of the nearest place of the hull, between two points of it, too.
-NearestHeight nearest_of_hull(const Hull& hull, Point2d p) {
-  NearestHeight nearest{0.0, std::numeric_limits<double>::infinity()};
-  for (const auto& [a, b] : hull) {
-    const Point2d along = horizontal(b) - horizontal(a);
-    const double share = std::clamp(dot(p - horizontal(a), along) / dot(along, along), 0.0, 1.0);
-    const double distance_m = norm(horizontal(a) + share * along - p);
-    if (distance_m < nearest.distance_m) nearest = {a.z + share * (b.z - a.z), distance_m};
-  }
-  return nearest;
-}
-
-/// Nodes along the border of the rectangle. All are computed before the first is inserted, so that none is the nearest point of
-/// another one.
-std::vector<Point3d> nodes_beyond(const Network& network, const Box2d& rectangle) {
-  const Hull hull = network.dimension() == 2 ? hull_of(network) : Hull();
-  Network::Face_handle last;
-  const auto nearest_beyond = [&](Point2d p) -> std::optional<NearestHeight> {
-    if (network.dimension() < 2) return nearest_height(network, p);
-    last = network.locate(Kernel::Point_3(p.x, p.y, 0.0), last);
-    if (!network.is_infinite(last)) return std::nullopt;
-    return nearest_of_hull(hull, p);
-  };
-  return border_nodes(rectangle, nearest_beyond);
-}
-
-/// A network that goes on beyond the hull of its points. Its faces between them stay as they are, where Network::insert would
-/// flip edges of the hull: a constrained Delaunay triangulation, of which these edges are the constraints.
-class NetworkBeyond {
- public:
-  explicit NetworkBeyond(Network& network) : network_(network) {}
-
-  void insert(const Point3d& node) {
-    const auto before = network_.number_of_vertices();
-    const Network::Vertex_handle v = static_cast<CGAL::Triangulation_2<Plan>&>(network_).insert({node.x, node.y, node.z});
-    // There may be a point at this place
-    if (network_.number_of_vertices() == before) return;
-    nodes_.insert(v);
-    if (network_.dimension() < 2) return;
-    std::vector<Network::Face_handle> faces;
-    Network::Face_circulator face = network_.incident_faces(v);
-    const Network::Face_circulator first = face;
-    do faces.push_back(face);
-    while (++face != first);
-    for (const Network::Face_handle f : faces) flip_as_far_as_needed(f, v);
-  }
-
- private:
-  /// Lies beyond the hull, which is convex: one of its vertices does.
-  [[nodiscard]] bool is_beyond(Network::Face_handle face) const {
-    return !network_.is_infinite(face) &&
-           (nodes_.contains(face->vertex(0)) || nodes_.contains(face->vertex(1)) || nodes_.contains(face->vertex(2)));
-  }
-  /// Flips the edge opposite to a new vertex if the circle around the face behind it contains that, and then the next ones.
-  void flip_as_far_as_needed(Network::Face_handle face, Network::Vertex_handle v) {
-    const int n = face->index(v);
-    const Network::Face_handle behind = face->neighbor(n);
-    if (!is_beyond(face) || !is_beyond(behind)) return;
-    if (network_.side_of_oriented_circle(behind, v->point(), true) != CGAL::ON_POSITIVE_SIDE) return;
-    network_.flip(face, n);
-    flip_as_far_as_needed(face, v);
-    flip_as_far_as_needed(behind, v);
-  }
-
-  Network& network_;
-  std::set<Network::Vertex_handle> nodes_;
-};
 
 /// What Network::insert does with a range, but for the copy that it makes of the points. Neighbors come one after the other, so
 /// that what is in use of the network is a small part of it.
@@ -153,6 +65,8 @@ void insert_all(PagedArray<Kernel::Point_3> points, Network& network) {
     hint = network.insert(points[n], hint)->face();
   }
 }
+
+Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 /// Height at a place of the plane through three corners.
 double height_in_plane(const std::array<Point3d, 3>& corners, Point2d p) {
@@ -193,8 +107,14 @@ Ground::Ground(PagedArray<Point3d> points, const Box2d& rectangle, GroundExtent 
   Network& network = impl_->network;
   insert_all(std::move(input), network);
   if (extent == GroundExtent::points) return;
-  NetworkBeyond beyond(network);
-  for (const Point3d& node : nodes_beyond(network, rectangle)) beyond.insert(node);
+  // Compute all heights before the first insertion, so that no corner is the nearest point of another one. Corners inside the
+  // network do not change it
+  std::vector<Kernel::Point_3> corners;
+  for (const Point2d c :
+       {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
+    corners.emplace_back(c.x, c.y, height_at(c));
+  // CGAL ignores a corner at the place of an existing point
+  for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }
 Ground::Ground(const TerrainRaster& surface_model, PixelSteps steps, const GridRotation& rotation)
     : impl_(std::make_unique<Impl>()) {
@@ -210,7 +130,7 @@ double Ground::height_at(Point2d p) const {
   if (++impl_->asked % accesses_between_looks == 0) MemoryBound::look_now();
   const Kernel::Point_3 query(p.x, p.y, 0.0);
   const auto face = network.dimension() == 2 ? network.locate(query, impl_->last_found) : nullptr;
-  if (face == nullptr || network.is_infinite(face)) return nearest_height(network, p).height_m;
+  if (face == nullptr || network.is_infinite(face)) return height_of_nearest(network, p);
   impl_->last_found = face;
   return height_in_plane(Impl::corners_of(face), p);
 }
