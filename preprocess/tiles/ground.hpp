@@ -24,7 +24,7 @@ namespace farlod::tiles {
 
 /// The area that the ground covers.
 enum class GroundExtent {
-  rectangle,  ///< the whole rectangle: beyond the points it goes on at the height of the nearest ones (border_nodes)
+  rectangle,  ///< the whole rectangle: a corner beyond the points gets the height of the nearest point
   points      ///< the convex hull of the points: nothing is known beyond it
 };
 

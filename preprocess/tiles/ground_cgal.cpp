@@ -9,16 +9,12 @@
 #include <CGAL/Projection_traits_xy_3.h>
 #include <CGAL/spatial_sort.h>
 
-#include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/expects.hpp"
 #include "city/geometry.hpp"
 #include "tiles/ground.hpp"
-#include "tiles/ground_border.hpp"
 #include "tiles/modelled_ground.hpp"
 
 namespace farlod::tiles {
@@ -46,36 +42,17 @@ PagedArray<Kernel::Point_3> to_cgal(const PagedArray<Point3d>& points) {
   return result;
 }
 
-/// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points. `near` is a
-/// face where the search may begin.
-NearestHeight nearest_height(const Network& network, Point2d p, Network::Face_handle near = nullptr) {
-  const auto distance_m = [p](const Kernel::Point_3& q) { return std::hypot(q.x() - p.x, q.y() - p.y); };
-  if (network.dimension() == 2) {
-    const Kernel::Point_3& nearest = network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0), near)->point();
-    return {nearest.z(), distance_m(nearest)};
+/// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points.
+double height_of_nearest(const Network& network, Point2d p) {
+  if (network.dimension() == 2) return network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0))->point().z();
+  double height = 0.0, least = std::numeric_limits<double>::infinity();
+  for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v) {
+    const double distance = std::hypot(v->point().x() - p.x, v->point().y() - p.y);
+    if (distance >= least) continue;
+    least = distance;
+    height = v->point().z();
   }
-  NearestHeight nearest{0.0, std::numeric_limits<double>::infinity()};
-  for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v)
-    if (const double distance = distance_m(v->point()); distance < nearest.distance_m) nearest = {v->point().z(), distance};
-  return nearest;
-}
-
-/// Heights along the border of the rectangle, and in corners that lie within the network. All are computed before the first is
-/// inserted, so that none is the nearest point of another one. What lies within the network does not change it.
-std::vector<Kernel::Point_3> frame_of(const Network& network, const Box2d& rectangle, const GroundHeightAt& height_at) {
-  Network::Face_handle last;
-  const auto nearest_beyond = [&](Point2d p) -> std::optional<NearestHeight> {
-    if (network.dimension() < 2) return nearest_height(network, p);
-    last = network.locate(Kernel::Point_3(p.x, p.y, 0.0), last);
-    if (!network.is_infinite(last)) return std::nullopt;
-    return nearest_height(network, p, last);
-  };
-  std::vector<Kernel::Point_3> frame;
-  for (const Point3d& node : border_nodes(rectangle, nearest_beyond)) frame.emplace_back(node.x, node.y, node.z);
-  const auto& [low, high] = rectangle;
-  for (const Point2d c : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    if (!nearest_beyond(c)) frame.emplace_back(c.x, c.y, height_at(c));
-  return frame;
+  return height;
 }
 
 /// What Network::insert does with a range, but for the copy that it makes of the points. Neighbors come one after the other, so
@@ -130,9 +107,14 @@ Ground::Ground(PagedArray<Point3d> points, const Box2d& rectangle, GroundExtent 
   Network& network = impl_->network;
   insert_all(std::move(input), network);
   if (extent == GroundExtent::points) return;
-  // CGAL ignores a node at the place of an existing point
-  for (const Kernel::Point_3& node : frame_of(network, rectangle, [this](Point2d p) { return height_at(p); }))
-    network.insert(node);
+  // Compute all heights before the first insertion, so that no corner is the nearest point of another one. Corners inside the
+  // network do not change it
+  std::vector<Kernel::Point_3> corners;
+  for (const Point2d c :
+       {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
+    corners.emplace_back(c.x, c.y, height_at(c));
+  // CGAL ignores a corner at the place of an existing point
+  for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }
 Ground::Ground(const TerrainRaster& surface_model, PixelSteps steps, const GridRotation& rotation)
     : impl_(std::make_unique<Impl>()) {
@@ -148,7 +130,7 @@ double Ground::height_at(Point2d p) const {
   if (++impl_->asked % accesses_between_looks == 0) MemoryBound::look_now();
   const Kernel::Point_3 query(p.x, p.y, 0.0);
   const auto face = network.dimension() == 2 ? network.locate(query, impl_->last_found) : nullptr;
-  if (face == nullptr || network.is_infinite(face)) return nearest_height(network, p).height_m;
+  if (face == nullptr || network.is_infinite(face)) return height_of_nearest(network, p);
   impl_->last_found = face;
   return height_in_plane(Impl::corners_of(face), p);
 }
