@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "farlod/error.hpp"
@@ -216,12 +219,19 @@ TEST(Morphology, EachColumnHasItsValue) {
   const auto columns = morphology_columns();
   const auto values = morphology_values(cell);
   ASSERT_EQ(columns.size(), values.size());
+  const std::map<std::string_view, std::optional<double>> expected{{"area_m2", 400.0},
+                                                                   {"vegetation_fraction", 0.25},
+                                                                   {"lambda_f_337", 0.25},
+                                                                   {"crown_height_mean_m", 7.5},
+                                                                   {"height_mean_m", std::nullopt}};
+  std::size_t compared = 0;
   for (std::size_t n = 0; n < columns.size(); ++n) {
-    if (columns[n].name == "area_m2") EXPECT_EQ(values[n], 400.0);
-    if (columns[n].name == "vegetation_fraction" || columns[n].name == "lambda_f_337") EXPECT_EQ(values[n], 0.25);
-    if (columns[n].name == "crown_height_mean_m") EXPECT_EQ(values[n], 7.5);
-    if (columns[n].name == "height_mean_m") EXPECT_FALSE(values[n]);
+    const auto found = expected.find(columns[n].name);
+    if (found == expected.end()) continue;
+    EXPECT_EQ(values[n], found->second) << columns[n].name;
+    ++compared;
   }
+  EXPECT_EQ(compared, expected.size());
 }
 
 TEST(Morphology, IsTheSameForAnyNumberOfThreads) {
