@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "receivers/point_receivers.hpp"
 #include "scene/near_cells.hpp"
 #include "scene/vertical_profile.hpp"
 
@@ -52,21 +53,30 @@ bool is_upright(const OverhangGeometry::TriangleCorners& t) {
   return std::abs(n.z) <= 1e-3F * norm(n);
 }
 
+/// Whether a triangle is above no receiver of a cell with this edge.
+bool is_beyond_receivers(const OverhangGeometry::TriangleCorners& t, float edge_m) {
+  constexpr float off_m = 2.0F * surface_offset_m;
+  const auto [low, high] = box_of(t);
+  return low.x > edge_m + off_m || low.y > edge_m + off_m || high.x < -off_m || high.y < -off_m;
+}
+
 }  // namespace
 
 OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, const WholeCityOnDemand* city)
     : package_(package), cell_(cell), city_(city) {
   // A surface of pixels has one height at each place
   if (package.manifest().heights()) return;
-  // Buildings that are cut at the borders of cells are above their own cell alone
-  const bool is_cut = package.manifest().assign != "whole";
+  // Buildings that are cut at the borders of cells are above their own cell alone. Receivers stand off a wall on the border of
+  // the cell, and so in the next one
   constexpr std::int32_t reach = TrianglesOfCell::reach_of_whole_buildings;
-  const CellRange near = package.grid().neighborhood_of(cell);
+  const CellRange around{cell.i - 1, cell.j - 1, cell.i + 2, cell.j + 2}, near = package.grid().neighborhood_of(cell);
+  const bool is_cut = package.manifest().assign != "whole";
   overhead_ =
-      overhanging_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1}
+      overhanging_in(is_cut ? around
                             : CellRange{std::min(near.i_begin, cell.i - reach), std::min(near.j_begin, cell.j - reach),
                                         std::max(near.i_end, cell.i + reach + 1), std::max(near.j_end, cell.j + reach + 1)});
-  std::erase_if(overhead_, is_upright);
+  const auto edge_m = static_cast<float>(package.grid().cell_edge_m);
+  std::erase_if(overhead_, [&](const TriangleCorners& t) { return is_upright(t) || (is_cut && is_beyond_receivers(t, edge_m)); });
 }
 
 template <class Visit>

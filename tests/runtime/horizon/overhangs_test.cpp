@@ -15,6 +15,7 @@
 #include "horizon/horizon_engine.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/sky_partition.hpp"
+#include "receivers/point_receivers.hpp"
 #include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
@@ -97,6 +98,14 @@ TEST(OverhangGeometry, AVerticalWallCoversNobodyBesideIt) {
   const std::vector<TriangleCorners> wall{{{{5.0F, 0.0F, 2.0F}, {5.0F, 8.0F, 2.0F}, {5.0F, 8.0F, 9.0F}}}};
   const std::vector<Point3f> eyes{{4.9F, 4.0F, 1.0F}, {5.1F, 4.0F, 1.0F}};
   EXPECT_EQ(PackedOverhangs(wall).geometry().receivers_below(packet_of(eyes)), 0U);
+}
+
+/// A receiver 1 cm off the jamb of a door that lies on the border of its cell.
+TEST(OverhangGeometry, CoversThoseWhoStandOffAWallOnTheBorderOfTheirCell) {
+  const std::vector<TriangleCorners> lintel{{{{5.0F, 19.0F, 2.0F}, {7.0F, 20.0F, 2.0F}, {5.0F, 20.0F, 2.0F}}}};
+  const std::vector<Point3f> eyes{{5.5F, -surface_offset_m, 1.0F}, {5.5F, -surface_offset_m, 3.0F}, {5.5F, 0.5F, 1.0F}};
+  const PackedOverhangs packed(lintel, Assign::clip, PackedOverhangs::south_of_it);
+  EXPECT_EQ(packed.geometry().receivers_below(packet_of(eyes)), 0b001U);
 }
 
 /// The roles of edges by their definition, ray by ray: above the upper borders all is free, and between the highest lower border
