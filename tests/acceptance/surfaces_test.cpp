@@ -46,6 +46,33 @@ TEST_F(PackedTown, SurfacesComeAsPointsSurfacesAndBuildings) {
 
 TEST_F(PackedTown, AreasAddUp) {
   folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 4");
+/// Small triangles have a receiver as large ones have: a mean that counted both alike would be that of no area.
+TEST_F(PackedTown, MeansOfARunWeighSurfacesByTheirArea) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 7 --quantity svf_solid --summary s.json");
+  const CsvTable points = table("o.csv");
+  std::map<std::string, double> sums;
+  std::map<double, double> area_by_svf;
+  double area_m2 = 0.0, alike = 0.0, count = 0.0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (points.text(n, "svf").empty()) continue;
+    const double part_m2 = points.number(n, "area_m2");
+    for (const char* name : {"svf", "svf_solid"}) sums[name] += part_m2 * points.number(n, name);
+    area_by_svf[points.number(n, "svf")] += part_m2;
+    area_m2 += part_m2;
+    alike += points.number(n, "svf");
+    ++count;
+  }
+  const nlohmann::json summary = folder.json_of("s.json");
+  const double printed = half_of_last_digit + printing_error_m2(points.size()) / area_m2;
+  EXPECT_NEAR(summary.at("svf").at("mean").get<double>(), sums.at("svf") / area_m2, printed);
+  EXPECT_GT(std::abs(alike / count - sums.at("svf") / area_m2), 4.0 * printed) << "the scene tells the two apart";
+  EXPECT_NEAR(summary.at("values").at("svf_solid").at("mean").get<double>(), sums.at("svf_solid") / area_m2, printed);
+  double below_m2 = 0.0;
+  auto middle = area_by_svf.begin();
+  while (below_m2 + middle->second < 0.5 * area_m2) below_m2 += (middle++)->second;
+  EXPECT_NEAR(summary.at("svf").at("median").get<double>(), middle->first, 0.0001);
+}
+
   const CsvTable points = table("o.csv"), surfaces = table("o.surfaces.csv"), buildings = table("o.buildings.csv");
   const auto by_surface = points.sums_by({"building", "surface"}, "area_m2");
   for (const auto& [surface, area_m2] : surfaces.sums_by({"building", "surface"}, "area_m2"))
