@@ -87,8 +87,15 @@ void print_matrix(const WrittenMatrix& matrix) {
 
 void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
   const EvaluationSummary& run = written.summary;
+/// Why receivers have no data. Those on surfaces stand right before them: nobody chose a place inside a building.
+const char* reason_of_no_data(ReceiverSource source) {
+  return source == ReceiverSource::surfaces ? "where another building or the ground covers the surface (party walls, cellars)"
+                                            : "inside buildings or without ground";
+}
+
   const EvaluationSettings& asked = options.evaluation;
-  fmt::print("{}, {:.1f} s in all; no data: {} inside buildings or without ground", counted(run.receivers), total_s, run.no_data);
+  fmt::print("{}, {:.1f} s in all; no data: {} {}", counted(run.receivers), total_s, run.no_data,
+             reason_of_no_data(options.source));
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
   if (run.outside_of_region > 0)
     fmt::print("; {} outside of the mask or box{}", run.outside_of_region, asked.within_m ? ", or farther from buildings" : "");
