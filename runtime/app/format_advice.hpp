@@ -20,12 +20,15 @@ template <class Condition>
   return (endings.find(',') == std::string::npos ? "choose " : "choose one of ") + endings;
 }
 
-/// "; did you mean .tif?", where the ending of a name is nearly one that can be written.
-[[nodiscard]] inline std::string nearest_ending(const std::filesystem::path& name) {
+/// "; did you mean .tif?", where the ending of a name is nearly one of a format that fulfils a condition.
+template <class Condition>
+[[nodiscard]] std::string nearest_ending(const std::filesystem::path& name, const Condition& condition) {
   std::vector<std::string> endings;
-  for (const OutputFormat& format : output_formats())
+  for (const OutputFormat& format : output_formats()) {
+    if (!condition(format)) continue;
     for (const std::string_view ending : format.endings)
       if (!ending.empty()) endings.emplace_back(ending);
+  }
   return did_you_mean(name.extension().string(), endings);
 }
 

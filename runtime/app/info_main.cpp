@@ -17,6 +17,7 @@
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "farlod/morphology.hpp"
+#include "farlod/raster.hpp"
 #include "farlod/version.hpp"
 #include "results/mesh/mesh_file.hpp"
 #include "results/output_format.hpp"
@@ -50,7 +51,8 @@ PackageCheck check(const Package& package, const InfoOptions& options) {
 }
 
 PackageFacts facts_of(const Package& package, const InfoOptions& options) {
-  PackageFacts facts{name_of(options.package), package.description(), inventory_of(package), {}, {}};
+  PackageFacts facts{
+      name_of(options.package), package.description(), inventory_of(package), plan_of_surface_model(package), {}, {}};
   if (options.cell) require_cell(facts.inventory, *options.cell, options);
   if (options.check) facts.check = check(package, options);
   if (options.cell) facts.cell = inspect_cell(package, *options.cell);

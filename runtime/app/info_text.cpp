@@ -58,8 +58,23 @@ void add_grid(const PackageFacts& facts, AlignedText& text) {
                          facts.inventory.block_edge, facts.inventory.block_edge));
 }
 
+/// A surface model has no buildings, which is no lack.
+void add_city(const PackageFacts& facts, AlignedText& text) {
+  const PackageDescription& d = facts.description;
+  if (facts.pixels && d.buildings == 0)
+    text.add("City", fmt::format("a surface model of {} × {} pixels of {:g} m, {} triangles; buildings are a part of it",
+                                 facts.pixels->columns, facts.pixels->rows, facts.pixels->step_m, d.triangles));
+  else
+    text.add("City", fmt::format("{} buildings, {} polygons, {} triangles", d.buildings, d.polygons, d.triangles));
+}
+
 void add_far_maps(const PackageFacts& facts, AlignedText& text) {
   const PackageDescription& d = facts.description;
+  if (d.has_rough_surface && d.cells_with_far_map == 0) {
+    text.add("Far maps", "none, and none is missing: rays march over the pixels");
+    text.add("On disk", fmt::format("tiles {}", bytes_text(facts.inventory.tile_bytes)));
+    return;
+  }
   const PackageInventory& i = facts.inventory;
   const auto cells = static_cast<std::uint64_t>(d.columns * d.rows);
   const std::string where = d.cells_with_far_map == cells ? fmt::format("in all {} cells", cells)
@@ -146,7 +161,7 @@ std::string facts_text(const PackageFacts& facts) {
            fmt::format("{}, format version {}, written by {}", facts.package, facts.inventory.format_version, d.software));
   add_place(d, text);
   add_grid(facts, text);
-  text.add("City", fmt::format("{} buildings, {} polygons, {} triangles", d.buildings, d.polygons, d.triangles));
+  add_city(facts, text);
   add_crowns(facts.inventory.crowns, text);
   add_far_maps(facts, text);
   add_origin(facts.inventory, text);

@@ -7,6 +7,7 @@
 
 #include "farlod/inspection.hpp"
 #include "farlod/package.hpp"
+#include "farlod/raster.hpp"
 
 namespace farlod {
 
@@ -15,6 +16,7 @@ struct PackageFacts {
   std::string package;  ///< as the user calls it
   PackageDescription description;
   PackageInventory inventory;
+  std::optional<RasterPlan> pixels;  ///< those that the city is, of a surface model
   std::optional<PackageCheck> check;
   std::optional<CellContents> cell;
 };

@@ -126,8 +126,9 @@ CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
 void add_sun_options(CLI::App& app, RawQuantities& raw) {
   app.add_option(
          "--sun", raw.sun,
-         "Hours of sunshine, were the sky clear, of a day, as 2026-06-21, or a year, as 2026; where there are trees, past them "
-         "and through them, too. A picture of the sky above --at shows the sun's path")
+         "Hours of sunshine, were the sky clear, of a day, as 2026-06-21, or a year, as 2026, from midnight to midnight of "
+         "local mean time; where there are trees, past them and through them, too. A picture of the sky above --at shows the "
+         "sun's path")
       ->group("Quantities");
   app.add_option("--sun-step", raw.sun_step_minutes,
                  "Minutes from one position of the sun to the next (default: " + std::to_string(step_of_days) + " for a day, " +

@@ -69,10 +69,12 @@ void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& aske
 void print_estimate(const WrittenRun& written, const RunEstimate& estimate) {
   constexpr double mib = 1 << 20;
   const double receivers = rough_number(estimate.receivers);
-  fmt::print("About {} receiver{}: {}, {} of memory and {} on the disk, from {} of {} cells. Nothing was written.\n",
-             with_commas(static_cast<std::uint64_t>(receivers)), receivers == 1.0 ? "" : "s", rough_duration(estimate.seconds),
-             rough_size(estimate.memory_bytes / mib), rough_size(written.output_bytes / mib), estimate.evaluated_cells,
-             with_commas(estimate.cells));
+  fmt::print(
+      "About {} receiver{} in {} cell{}: {}, {} of memory and {} on the disk, by the time that {} in {} of them took. Nothing "
+      "was written.\n",
+      with_commas(static_cast<std::uint64_t>(receivers)), receivers == 1.0 ? "" : "s", with_commas(estimate.cells),
+      estimate.cells == 1 ? "" : "s", rough_duration(estimate.seconds), rough_size(estimate.memory_bytes / mib),
+      rough_size(written.output_bytes / mib), counted(estimate.evaluated_receivers), estimate.evaluated_cells);
   for (const std::string& note : written.notes) fmt::print("{}\n", note);
 }
 
@@ -85,10 +87,17 @@ void print_matrix(const WrittenMatrix& matrix) {
       f.closure_mean, f.closure_max, f.dropped_mean, f.dropped_max);
 }
 
+/// Why receivers have no data. Those on surfaces stand right before them: nobody chose a place inside a building.
+const char* reason_of_no_data(ReceiverSource source) {
+  return source == ReceiverSource::surfaces ? "where another building or the ground covers the surface (party walls, cellars)"
+                                            : "inside buildings or without ground";
+}
+
 void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
   const EvaluationSummary& run = written.summary;
   const EvaluationSettings& asked = options.evaluation;
-  fmt::print("{}, {:.1f} s in all; no data: {} inside buildings or without ground", counted(run.receivers), total_s, run.no_data);
+  fmt::print("{}, {:.1f} s in all; no data: {} {}", counted(run.receivers), total_s, run.no_data,
+             reason_of_no_data(options.source));
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
   if (run.outside_of_region > 0)
     fmt::print("; {} outside of the mask or box{}", run.outside_of_region, asked.within_m ? ", or farther from buildings" : "");

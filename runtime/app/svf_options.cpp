@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/format_advice.hpp"
+#include "app/format_options.hpp"
 #include "app/matrix_options.hpp"
 #include "app/picture_options.hpp"
 #include "app/word_choice.hpp"
@@ -242,33 +243,6 @@ void resolve_part(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--bbox", "with --mask it goes with --grid only: give one of the two");
 }
 
-/// A picture is a map of --grid, or the sky above --at.
-bool fits(const OutputFormat& format, ReceiverSource source) {
-  if (format.is_picture) return source == ReceiverSource::grid || source == ReceiverSource::at;
-  return source == ReceiverSource::grid ? format.holds_rasters() : format.holds_tables();
-}
-
-void require_format_that_fits(const SvfOptions& o) {
-  const auto fits_source = [&o](const OutputFormat& f) { return fits(f, o.source); };
-  const std::string ending = o.output.extension().string();
-  if (!fits_source(*o.format) && o.source == ReceiverSource::grid)
-    throw CLI::ValidationError("-o", "--grid makes a raster, which " + ending + " cannot hold: " + advice(fits_source));
-  if (!fits_source(*o.format))
-    throw CLI::ValidationError("-o", "only --grid makes a raster: " + advice(fits_source) + " for points and surfaces");
-  const auto holds_bounds = [&](const OutputFormat& f) { return fits_source(f) && f.holds_bounds; };
-  if (o.evaluation.bounds && !o.format->holds_bounds)
-    throw CLI::ValidationError("--bounds", "a file that ends in " + ending + " has no room for bounds: " + advice(holds_bounds));
-}
-
-void resolve_format(const RawOptions& raw, SvfOptions& o) {
-  o.format = output_format_of(o.output);
-  if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give a file");
-  if (o.format == nullptr)
-    throw CLI::ValidationError("-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " +
-                                         known_endings() + nearest_ending(o.output));
-  require_format_that_fits(o);
-}
-
 /// For messages: ".city.json (CityJSON), ...".
 std::string city_endings() {
   std::string list;
@@ -296,7 +270,7 @@ void resolve_output(const RawOptions& raw, SvfOptions& o) {
   } else if (city_format_of(o.output)) {
     throw CLI::ValidationError("-o", "a city file is the file that was packed, with values: name that file with --city");
   } else {
-    resolve_format(raw, o);
+    resolve_format(raw.output, raw.quantities, o);
   }
   resolve_pictures(raw.pictures, o);
   if (o.evaluation.dry_run && o.source == ReceiverSource::at)
@@ -313,11 +287,6 @@ void require_accuracy(const EvaluationSettings& settings) {
   } catch (const InvalidArgument& error) {
     throw CLI::ValidationError(settings.max_error ? "--max-error" : "--bounds", error.what());
   }
-}
-
-bool any_but_irradiation(Quantities further) {
-  further.irradiation = false;
-  return further.any();
 }
 
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {

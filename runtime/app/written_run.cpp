@@ -250,6 +250,9 @@ void require_answers(const EvaluationSummary& summary, const SvfOptions& options
   const std::string place = fmt::format("The city lies from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.", box.low.x,
                                         box.low.y, box.high.x, box.high.y, city.crs_name, option_of_place(options));
   const std::size_t beyond = summary.beyond_grid + summary.outside_of_region;
+  if (summary.no_data > 0 && options.source == ReceiverSource::surfaces)
+    throw NoAnswer(fmt::format("{}: another building or the ground covers all {} receivers on surfaces{}. {}", nothing,
+                               summary.no_data, beyond > 0 ? fmt::format(", and {} lie beyond the box", beyond) : "", place));
   if (summary.no_data > 0)
     throw NoAnswer(fmt::format("{}: {} inside buildings or without ground{}. Choose other places, or --on-surface.", nothing,
                                summary.no_data, beyond > 0 ? fmt::format(", {} beyond the city", beyond) : ""));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,7 +33,9 @@ struct CellGeometry {
   CellGeometry(const Evaluation& e, const CellReceivers& cell)
       : far(far_map_of(e.package, cell.cell) == FarMapOfCell::all_is_near ? without_far_map(e.package.grid())
                                                                           : e.package.far_horizon(cell.cell)),
-        silhouettes(cell_silhouettes(e.package, cell.cell, far, bounding_box(cell.receivers))),
+        silhouettes(cell_silhouettes(
+            e.package, cell.cell, far, bounding_box(cell.receivers),
+            e.package.grid().cells.contains(cell.cell) ? std::span<const HorizonEdge>() : e.far_terrain_edges())),
         overhangs(e.package, cell.cell, is_small(e.package) ? e.city.get() : nullptr) {}
   CellGeometry(FarHorizon f, CellSilhouettes s, OverhangGeometry o)
       : far(std::move(f)), silhouettes(std::move(s)), overhangs(std::move(o)) {}
@@ -46,7 +49,9 @@ struct CellGeometry {
   }
   /// A far map with nothing in it.
   static FarHorizon without_far_map(const Grid& grid) {
-    const ReceiverPatches one_patch(grid.cell_edge_m, 1, {0.0F});
+    // No receiver lies below its only level, where bounds would be unknown: a slope may fall beyond the grid
+    constexpr float below_all_m = -2e5F;
+    const ReceiverPatches one_patch(grid.cell_edge_m, 1, {below_all_m});
     return {one_patch, AzimuthBins{1}, {0.0F}, {0.0F}, {0.0F}, {0.0F}, {}};
   }
 

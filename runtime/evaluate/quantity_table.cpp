@@ -81,11 +81,14 @@ void describe_patches(const Quantities& q, Columns& columns) {
 }
 
 void describe_sunlit(const Quantities&, Columns& columns) {
-  columns.push_back({"sunlit_h", "h", "hours at which the middle of the sun is seen, were the sky clear"});
+  columns.push_back(
+      {"sunlit_h", "h", "hours at which the middle of the sun is seen, were the sky clear; days are those of local mean time"});
 }
 
 void describe_sunlit_total(const Quantities&, Columns& columns) {
-  columns.push_back({"sunlit_total_h", "h", "hours of sunshine past the crowns of trees and through them, were the sky clear"});
+  columns.push_back(
+      {"sunlit_total_h", "h",
+       "hours of sunshine past the crowns of trees and through them, were the sky clear; days are those of local mean time"});
 }
 
 void describe_shadow_patches(const Quantities&, Columns& columns) {

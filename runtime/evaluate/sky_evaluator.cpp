@@ -12,6 +12,7 @@
 #include "evaluate/sky_method.hpp"
 #include "evaluate/traced_patches.hpp"
 #include "evaluate/view_factors.hpp"
+#include "horizon/far_terrain_edges.hpp"
 #include "package/pixel_heights.hpp"
 #include "scene/canopy_around.hpp"
 #include "scene/ray_scenes.hpp"
@@ -19,11 +20,10 @@
 namespace farlod {
 
 FarMapOfCell far_map_outside_of_grid(const PackageReader& package) {
-  // Each cell collects all edges of the city there: some hundredths of a second. Pixels have no edges, and the ground beyond the
-  // grid is in far maps and in the scene of the whole city alone
+  // Each cell collects all edges of the city there, and those of the far terrain: some hundredths of a second. Pixels have none
   constexpr std::uint64_t most_triangles = 1'000'000;
   const package::Manifest& m = package.manifest();
-  const bool is_drawn = m.triangles <= most_triangles && !m.far_map.is_box() && !m.heights() && !m.far_terrain;
+  const bool is_drawn = m.triangles <= most_triangles && !m.far_map.is_box() && !m.heights();
   return is_drawn ? FarMapOfCell::all_is_near : FarMapOfCell::outside_of_grid;
 }
 
@@ -118,6 +118,11 @@ const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
     file->let_go();
   });
   return pixels_->city ? &*pixels_->city : nullptr;
+}
+
+std::span<const HorizonEdge> Evaluation::far_terrain_edges() const {
+  std::call_once(far_terrain_->once, [this] { far_terrain_->edges = horizon_edges_of(package.far_terrain()); });
+  return far_terrain_->edges;
 }
 
 bool Evaluation::is_unbroken_relief() const {

@@ -8,8 +8,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "canopy/canopy_field.hpp"
 #include "evaluate/further_quantities.hpp"
@@ -17,6 +19,7 @@
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/sky_parts.hpp"
 #include "horizon/pixel_horizon.hpp"
+#include "package/horizon_edge.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 #include "scene/ray_scenes.hpp"
@@ -58,6 +61,9 @@ struct Evaluation {
   /// The pixels that all crowns are, where the sky behind them may be found by marching over them from some of these receivers of
   /// a cell: all that is asked for has no bounds, and crowns count by the rule `once`. Null elsewhere. Thread-safe.
   [[nodiscard]] const CanopyCity* canopy_pixels(const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// The edges of the far terrain in its own frame: outside of the grid there are no far maps, which have them elsewhere.
+  /// Thread-safe.
+  [[nodiscard]] std::span<const HorizonEdge> far_terrain_edges() const;
   std::unique_ptr<EvaluationCounter> counter = std::make_unique<EvaluationCounter>();
 
   /// Whether bounds of the true values are asked for.
@@ -75,10 +81,15 @@ struct Evaluation {
     std::once_flag once;
     std::optional<CanopyCity> city;
   };
+  struct FarTerrainOnDemand {
+    std::once_flag once;
+    std::vector<HorizonEdge> edges;
+  };
   void make_canopy_city() const;
   std::unique_ptr<PixelsOnDemand> pixels_ = std::make_unique<PixelsOnDemand>();
   std::optional<CanopyLattice> canopy_lattice_;  ///< where rays may march
   std::unique_ptr<CanopyOnDemand> canopy_ = std::make_unique<CanopyOnDemand>();
+  std::unique_ptr<FarTerrainOnDemand> far_terrain_ = std::make_unique<FarTerrainOnDemand>();
 };
 
 /// A way to answer the receivers of a cell. Thread-safe.

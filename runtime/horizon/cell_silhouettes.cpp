@@ -50,7 +50,8 @@ void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
 
 }  // namespace
 
-CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const FarHorizon& far, const ReceiverBox& box) {
+CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const FarHorizon& far, const ReceiverBox& box,
+                                 std::span<const HorizonEdge> far_terrain) {
   CellSilhouettes silhouettes;
   const Grid& grid = package.grid();
   // Most edges are far
@@ -72,6 +73,8 @@ CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const 
   for (const package::ExplicitOccluder& n : far.occluders.explicit_edges)
     if ((n.layers & layers) != 0)
       add(placed(far.occluders.edges[n.row], far.occluders.cell_from_block_m), silhouettes, silhouettes.far);
+  const Point2d far_terrain_shift_m = grid.middle_corner() - grid.corner_of(cell);
+  for (const HorizonEdge& e : far_terrain) silhouettes.grounded.add(placed(e, far_terrain_shift_m));
   // Leave out what faces away, and sort from near to far
   silhouettes.grounded = silhouettes.grounded.facing(box);
   keep_facing(silhouettes.near, box);

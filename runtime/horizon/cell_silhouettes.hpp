@@ -38,10 +38,10 @@ struct CellSilhouettes : CellOverhangs {
   void number_upper_borders();
 };
 
-/// The edges of the cells nearby (near_cells_of) and the explicit edges of the far map, without those that face away from all
-/// receivers in a box.
+/// The edges of the cells nearby (near_cells_of), the explicit edges of the far map, and those of a far terrain in its own frame,
+/// where that is in no far map; without those that face away from all receivers in a box.
 [[nodiscard]] CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const FarHorizon& far,
-                                               const ReceiverBox& box);
+                                               const ReceiverBox& box, std::span<const HorizonEdge> far_terrain = {});
 
 /// The box around some receivers.
 [[nodiscard]] ReceiverBox bounding_box(std::span<const Receiver> receivers);

@@ -13,6 +13,7 @@
 #include "base/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "package/horizon_edge.hpp"
+#include "scene/far_ground.hpp"
 
 namespace farlod {
 namespace {
@@ -37,10 +38,17 @@ Point2d cell_point_within(Point2d p_grid, Cell cell, const Grid& grid) {
   return {std::clamp(p.x, 0.0, last_m), std::clamp(p.y, 0.0, last_m)};
 }
 
-/// For a point outside of the grid: the ground is that at the border of the grid. There are no buildings, even where one ends at
-/// the border.
-std::optional<Point3f> stand_outside(const VerticalProfile& at_border, Point2d p_cell, HeightAbove above, float height_m) {
-  const auto z_m = standing_height_m(at_border, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
+/// The profile of a point outside of the grid: the ground is the far terrain, or else that at the border of the grid.
+VerticalProfile profile_outside(const FarGround& far_ground, const PointLocator& locator, Point2d p_cell, Point2d at_border) {
+  constexpr bool looks_up = true;
+  if (const auto height_m = far_ground.height_at(static_cast<float>(p_cell.x), static_cast<float>(p_cell.y)))
+    return VerticalProfile({{*height_m, package::no_building, 0, looks_up}});
+  return locator.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
+}
+
+/// For a point outside of the grid, there are no buildings, even where one ends at the border.
+std::optional<Point3f> stand_outside(const VerticalProfile& profile, Point2d p_cell, HeightAbove above, float height_m) {
+  const auto z_m = standing_height_m(profile, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
   if (!z_m) return std::nullopt;
   return Point3f{static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), *z_m};
 }
@@ -170,15 +178,16 @@ CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<co
   const Grid& grid = package.grid();
   const Cell existing = nearest_existing(cell, grid.cells);
   const PointLocator locator(package, existing);
+  const bool is_outside = cell != existing;
+  std::optional<FarGround> far_ground;
+  if (is_outside) far_ground.emplace(package, cell);
   CellReceivers result{cell, {}};
   for (const std::size_t n : chosen) {
     throw_if_cancelled(stop);
     const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);
     const Point2d p_cell = p_grid - grid.corner_of(cell), within = cell_point_within(p_grid, existing, grid);
     const auto x = static_cast<float>(p_cell.x), y = static_cast<float>(p_cell.y);
-    const bool is_outside = cell != existing;
-    const VerticalProfile profile =
-        is_outside ? locator.at(static_cast<float>(within.x), static_cast<float>(within.y)) : locator.at(x, y);
+    const VerticalProfile profile = is_outside ? profile_outside(*far_ground, locator, p_cell, within) : locator.at(x, y);
     const auto [from, height] = height_of_place(places[n], above, height_m, package.manifest().height_origin_m);
     const auto standing = is_outside ? stand_outside(profile, {x, y}, from, height) : stand(profile, x, y, from, height);
     if (!standing) continue;

@@ -24,7 +24,7 @@ struct PlaceOfReceiver {
 };
 
 /// The places by cell, in the order of the cells; a place's index is its position in `places`. Cells may lie outside of the grid:
-/// a receiver out there stands on the height that the ground has where the grid ends.
+/// a receiver out there stands on the far terrain, or else on the height that the ground has where the grid ends.
 [[nodiscard]] std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const PackageReader& package,
                                                                                     std::span<const PlaceOfReceiver> places);
 

@@ -43,6 +43,7 @@ struct CellReceivers {
   std::size_t left_out = 0;                 ///< of a raster: pixels of the cell where no receiver can stand
   std::size_t outside_of_region = 0;        ///< pixels, points or receivers on surfaces that nobody asks for
   std::vector<bool> is_near_building = {};  ///< of each receiver: near_buildings_m; empty where nobody asks
+  std::vector<float> areas_m2 = {};         ///< that receivers on surfaces stand for; empty where all count alike
 };
 
 /// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.

@@ -85,10 +85,10 @@ struct Tally {
 
   void add(const PackageReader& package, const Quantities& further, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
-    statistics.add(statistics_of(cell.values));
+    statistics.add(statistics_of(cell.receivers, cell.values));
     near_buildings.add(statistics_near_buildings(cell.receivers, cell.values));
-    distribution.add(cell.values.svf);
-    const std::vector<SvfStatistics> of_further = further_statistics_of(cell.values, further);
+    distribution.add(cell.values.svf, cell.receivers.areas_m2);
+    const std::vector<SvfStatistics> of_further = further_statistics_of(cell.receivers, cell.values, further);
     further_statistics.resize(of_further.size());
     for (std::size_t k = 0; k < of_further.size(); ++k) further_statistics[k].add(of_further[k]);
     outside_of_region += cell.receivers.outside_of_region;
@@ -248,6 +248,7 @@ class ThinnedCells : public CellsOfRun {
       if (k / together % thinning_ == 0) cell.receivers[kept++] = cell.receivers[k];
     cell.receivers.resize(kept);
     cell.is_near_building.clear();  // nobody is told a mean
+    cell.areas_m2.clear();
     kept_ += kept;
     return cell;
   }

@@ -46,7 +46,9 @@ CellReceivers answerable(Cell cell, const PlacedReceivers& placed) {
   result.outside_of_region = placed.outside_of_region;
   for (std::size_t k = 0; k < placed.receivers.size(); ++k) {
     const SurfaceReceiver& r = placed.receivers[k];
-    if (!r.is_inside_building) result.receivers.push_back({k, r.p_cell, r.normal});
+    if (r.is_inside_building) continue;
+    result.receivers.push_back({k, r.p_cell, r.normal});
+    result.areas_m2.push_back(r.area_m2);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/svf_statistics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -9,9 +10,26 @@
 
 namespace farlod {
 
-void SvfDistribution::add(std::span<const float> values) {
+namespace {
+
+float weight_of(const CellReceivers& cell, std::size_t n) { return cell.areas_m2.empty() ? 1.0F : cell.areas_m2[n]; }
+
+}  // namespace
+
+std::uint64_t& SvfDistribution::count_of(float value) {
   constexpr auto last = static_cast<float>(parts - 1);
-  for (const float value : values) ++counts_[static_cast<std::size_t>(std::clamp(value * static_cast<float>(parts), 0.0F, last))];
+  return counts_[static_cast<std::size_t>(std::clamp(value * static_cast<float>(parts), 0.0F, last))];
+}
+
+void SvfDistribution::add(std::span<const float> values) {
+  for (const float value : values) ++count_of(value);
+}
+
+void SvfDistribution::add(std::span<const float> values, std::span<const float> areas_m2) {
+  if (areas_m2.empty()) return add(values);
+  constexpr double parts_of_m2 = 1e6;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    count_of(values[n]) += static_cast<std::uint64_t>(std::max(1.0, double{areas_m2[n]} * parts_of_m2));
 }
 
 double SvfDistribution::median() const {
@@ -33,9 +51,9 @@ SvfStatistics statistics_of(std::span<const float> values) {
   return statistics;
 }
 
-SvfStatistics statistics_of(const SvfValues& values) {
+SvfStatistics statistics_of(const CellReceivers& cell, const SvfValues& values) {
   SvfStatistics statistics;
-  for (const float svf : values.svf) statistics.add(svf);
+  for (std::size_t n = 0; n < values.svf.size(); ++n) statistics.add(values.svf[n], weight_of(cell, n));
   for (std::size_t n = 0; n < values.low.size(); ++n) statistics.add_width(values.high[n] - values.low[n]);
   return statistics;
 }
@@ -47,13 +65,13 @@ SvfStatistics statistics_near_buildings(const CellReceivers& cell, const SvfValu
   return statistics;
 }
 
-std::vector<SvfStatistics> further_statistics_of(const SvfValues& values, const Quantities& further) {
+std::vector<SvfStatistics> further_statistics_of(const CellReceivers& cell, const SvfValues& values, const Quantities& further) {
   std::vector<SvfStatistics> statistics(values.further_columns);
   const TotalColumns columns = total_columns_of(further);
   for (std::size_t n = 0; n < values.svf.size(); ++n) {
     const std::span<const float> row = values.further_of(n);
     for (std::size_t k = 0; k < row.size(); ++k)
-      if (!std::isnan(row[k])) statistics[k].add(row[k]);
+      if (!std::isnan(row[k])) statistics[k].add(row[k], weight_of(cell, n));
     if (columns.total && columns.low) statistics[*columns.total].add_width(row[*columns.low + 1] - row[*columns.low]);
   }
   return statistics;

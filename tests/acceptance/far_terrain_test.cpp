@@ -81,6 +81,42 @@ TEST_F(FarTerrain, BoundsHoldForIt) {
   }
 }
 
+/// A slope that rises to the east far beyond the grid: whoever stood on the height at the border would lie below it.
+TEST_F(FarTerrain, BeyondTheGridReceiversStandOnIt) {
+  const auto height_m = [](Point2d p) { return 200.0 + 0.2 * p.x; };
+  folder.write("terrain.asc", ascii_grid(height_m, 10.0, 900.0));
+  pack("--terrain terrain.asc --align none");
+  const Point2d low = town_middle - Point2d{250.0, 250.0}, high = town_middle + Point2d{250.0, 250.0};
+  folder.must("farlod-svf a.farlod -o map.asc --grid 20 --summary s.json --bbox " + text_of(low) + "," + text_of(high));
+  EXPECT_EQ(folder.json_of("s.json").at("nodata"), 0);
+  const RasterFile map = read_raster(folder.path("map.asc"));
+  EXPECT_GT(folder.json_of("s.json").at("receivers_outside_of_grid"), map.values.size() / 2);
+  for (const std::optional<double>& svf : map.values) EXPECT_GT(svf.value(), 0.95);
+  folder.write("points.csv", "x,y\n" + text_of(town_middle + Point2d{210.0, 10.0}) + "\n" +
+                                 text_of(town_middle + Point2d{-230.0, 110.0}) + "\n");
+  folder.must("farlod-svf a.farlod --points points.csv --bounds -o auto.csv");
+  folder.must("farlod-svf a.farlod --points points.csv --engine exact --rays 20000 -o exact.csv");
+  const CsvTable drawn(folder.text_of("auto.csv")), exact(folder.text_of("exact.csv"));
+  for (std::size_t n = 0; n < drawn.size(); ++n) {
+    const Point2d p = Point2d{drawn.number(n, "x_m"), drawn.number(n, "y_m")};
+    EXPECT_NEAR(drawn.number(n, "z_m"), height_m(p - town_middle) + 1.5, 0.5) << "two thousandths of 250 m";
+    EXPECT_NEAR(drawn.number(n, "svf"), map.at(p).value(), half_of_last_digit);
+    EXPECT_NEAR(drawn.number(n, "svf"), exact.number(n, "svf"), 0.003);
+    EXPECT_LE(drawn.number(n, "svf_high") - drawn.number(n, "svf_low"), 0.01);
+  }
+}
+
+TEST_F(FarTerrain, BeyondTheGridItIsTheHorizon) {
+  folder.write("terrain.asc", plateau(1500.0, 600.0, 20.0, 2400.0));
+  pack("--terrain terrain.asc --align none");
+  const double slope = 600.0 / 1510.0, expected = 1.0 / (1.0 + slope * slope);
+  const std::string place = text_of(town_middle + Point2d{0.0, 150.0});
+  for (const std::string engine : {"auto", "horizon", "rays", "exact"}) {
+    folder.must("farlod-svf a.farlod --at " + place + " --height 0.5 -o at.csv --engine " + engine + " --rays 20000");
+    EXPECT_NEAR(CsvTable(folder.text_of("at.csv")).number(0, "svf"), expected, 0.01) << engine;
+  }
+}
+
 TEST_F(FarTerrain, TheEarthIsRound) {
   folder.write("terrain.asc", ascii_grid([](Point2d) { return 100.0; }));
   folder.write("far.asc", plateau(50e3, 4000.0, 250.0, 60e3));

@@ -156,6 +156,11 @@ TEST_F(DryRun, SaysSoInASentence) {
   EXPECT_EQ(outcome.exit_code, exit_done);
   EXPECT_THAT(outcome.out, StartsWith("About "));
   EXPECT_THAT(outcome.out, HasSubstr("Nothing was written."));
+  // All cells of the run, and those whose receivers were timed: neither is a number of cells that are left out
+  const nlohmann::json estimated = estimate("-o o.asc --grid 1");
+  EXPECT_THAT(outcome.out, HasSubstr(" in " + estimated.at("cells").dump() + " cells: "));
+  EXPECT_THAT(outcome.out, HasSubstr("by the time that " + estimated.at("evaluated_receivers").dump() + " receivers in " +
+                                     estimated.at("evaluated_cells").dump() + " of them took"));
   EXPECT_EQ(lines_of(outcome.out).size(), 1U);
 }
 

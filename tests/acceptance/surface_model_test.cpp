@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -52,6 +54,18 @@ class SurfaceModel : public testing::Test {
 
   WorkFolder folder;
 };
+
+/// farlod-info counted no building in it, and far maps that are missing.
+TEST_F(SurfaceModel, IsDescribedAsOne) {
+  pack([](Point2d p) { return norm(p) >= 25.0; });
+  const std::string city = folder.run("farlod-info a.farlod").out;
+  EXPECT_THAT(city, testing::HasSubstr("City          a surface model of "));
+  EXPECT_THAT(city, testing::HasSubstr("; buildings are a part of it"));
+  EXPECT_THAT(city, testing::Not(testing::HasSubstr("0 buildings")));
+  pack_heights([](Point2d p) { return floor_m + 0.3 * std::sin(31.0 * p.x) * std::cos(17.0 * p.y); });
+  const std::string rough = folder.run("farlod-info a.farlod").out;
+  EXPECT_THAT(rough, testing::HasSubstr("Far maps      none, and none is missing: rays march over the pixels"));
+}
 
 class SurfaceModelRead : public SurfaceModel, public testing::WithParamInterface<Reading> {};
 

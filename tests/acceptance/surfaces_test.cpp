@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
 #include <array>
 #include <cmath>
 #include <map>
@@ -42,6 +44,33 @@ TEST_F(PackedTown, SurfacesComeAsPointsSurfacesAndBuildings) {
   const std::size_t blocks = small_town().size();
   EXPECT_EQ(table("o.buildings.csv").size(), blocks);
   EXPECT_EQ(table("o.surfaces.csv").size(), 5 * blocks);
+}
+
+/// Small triangles have a receiver as large ones have: a mean that counted both alike would be that of no area.
+TEST_F(PackedTown, MeansOfARunWeighSurfacesByTheirArea) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 7 --quantity svf_solid --summary s.json");
+  const CsvTable points = table("o.csv");
+  std::map<std::string, double> sums;
+  std::map<double, double> area_by_svf;
+  double area_m2 = 0.0, alike = 0.0, count = 0.0;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (points.text(n, "svf").empty()) continue;
+    const double part_m2 = points.number(n, "area_m2");
+    for (const char* name : {"svf", "svf_solid"}) sums[name] += part_m2 * points.number(n, name);
+    area_by_svf[points.number(n, "svf")] += part_m2;
+    area_m2 += part_m2;
+    alike += points.number(n, "svf");
+    ++count;
+  }
+  const nlohmann::json summary = folder.json_of("s.json");
+  const double printed = half_of_last_digit + printing_error_m2(points.size()) / area_m2;
+  EXPECT_NEAR(summary.at("svf").at("mean").get<double>(), sums.at("svf") / area_m2, printed);
+  EXPECT_GT(std::abs(alike / count - sums.at("svf") / area_m2), 4.0 * printed) << "the scene tells the two apart";
+  EXPECT_NEAR(summary.at("values").at("svf_solid").at("mean").get<double>(), sums.at("svf_solid") / area_m2, printed);
+  double below_m2 = 0.0;
+  auto middle = area_by_svf.begin();
+  while (below_m2 + middle->second < 0.5 * area_m2) below_m2 += (middle++)->second;
+  EXPECT_NEAR(summary.at("svf").at("median").get<double>(), middle->first, 0.0001);
 }
 
 TEST_F(PackedTown, AreasAddUp) {
@@ -269,8 +298,11 @@ class PartyWall : public testing::TestWithParam<Pair> {};
 TEST_P(PartyWall, HasNoAnswerWhereItIsCovered) {
   const WorkFolder folder;
   add_packed_town(folder, std::string("pair_") + GetParam().name, GetParam().blocks);
-  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --summary s.json");
+  const Outcome said = folder.run("farlod-svf a.farlod -o o.csv --surfaces walls --summary s.json");
+  ASSERT_EQ(said.exit_code, exit_done) << said.err;
   const CsvTable surfaces(folder.text_of("o.surfaces.csv")), points(folder.text_of("o.csv"));
+  EXPECT_THAT(said.out, testing::HasSubstr("where another building or the ground covers the surface (party walls, cellars)"));
+  EXPECT_THAT(said.out, testing::Not(testing::HasSubstr("inside buildings")));
   std::size_t without_answer = 0;
   for (std::size_t n = 0; n < surfaces.size(); ++n) {
     const bool has_none = surfaces.text(n, "nodata") == surfaces.text(n, "receivers");

@@ -20,8 +20,18 @@ RefusedCommand unusable_points(const std::string& name, const std::string& file,
   return unusable(name, "a.farlod -o o.csv --points " + file, said);
 }
 
-std::string all_endings() {
-  return endings_where([](const OutputFormat&) { return true; });
+/// Of the formats for a single place, of those for maps, and of those for maps with more than one quantity.
+std::string endings_of_a_place() {
+  return endings_where([](const OutputFormat& f) { return f.holds_tables() || f.is_picture; });
+}
+std::string endings_of_tables() {
+  return endings_where([](const OutputFormat& f) { return f.holds_tables(); });
+}
+std::string endings_of_tables_with_room() {
+  return endings_where([](const OutputFormat& f) { return f.holds_tables() && f.holds_bounds; });
+}
+std::string endings_of_maps_with_room() {
+  return endings_where([](const OutputFormat& f) { return f.holds_rasters() && f.holds_bounds; });
 }
 
 class SvfRefuses : public testing::TestWithParam<RefusedCommand> {
@@ -49,8 +59,17 @@ INSTANTIATE_TEST_SUITE_P(
     Usage, SvfRefuses,
     testing::Values(
         wrong_usage("NoOutput", "a.farlod --at 1,2", {"--output is required"}),
-        wrong_usage("UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", {"o.no_such_format", all_endings()}),
-        wrong_usage("NoEnding", "a.farlod -o o --at 1,2", {"\"o\"", all_endings()}),
+        wrong_usage("UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", {"o.no_such_format", endings_of_a_place() + "."}),
+        wrong_usage("UnknownEndingOfSurfaces", "a.farlod -o o.shp --surfaces all",
+                    {"o.shp", "choose one of " + endings_of_tables() + "."}),
+        wrong_usage("UnknownEndingOfBounds", "a.farlod -o o.shp --points p.csv --bounds",
+                    {"o.shp", "choose one of " + endings_of_tables_with_room() + "."}),
+        wrong_usage("UnknownEndingOfQuantities", "a.farlod -o o.shp --grid 5 --quantity svf_solid,directional",
+                    {"o.shp", "choose one of " + endings_of_maps_with_room() + "."}),
+        wrong_usage("ATableOfAMapWithBounds", "a.farlod -o o.csv --grid 5 --bounds",
+                    {".csv cannot hold", "choose one of " + endings_of_maps_with_room() + "."}),
+        wrong_usage("AnEndingNearOneForOthers", "a.farlod -o o.tff --at 1,2", {"o.tff", endings_of_a_place() + "."}),
+        wrong_usage("NoEnding", "a.farlod -o o --at 1,2", {"\"o\"", endings_of_a_place()}),
         wrong_at("MisspeltOption", "--heigth 2", {"--heigth: there is no such option; did you mean --height?"}),
         wrong_at("UnknownOption", "--colour=red", {"--colour: there is no such option. "}),
         wrong_at("OneArgumentTooMany", "town", {"town: nothing is known of this argument"}),

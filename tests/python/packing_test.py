@@ -47,11 +47,13 @@ def test_heights_of_footprints(tmp_path: Path) -> None:
     squares = [shapely.geometry.box(x, 5.3e6, x + 10, 5.3e6 + 10) for x in (690000.0, 690050.0, 690100.0)]
     data = {"floors": [2, 5, 3], "usage": ["a", None, "b"], "tags": [[1], [2], None]}
     frame = geopandas.GeoDataFrame(data, geometry=squares, crs="EPSG:25832")
-    heights = farlod.Heights(storeys="floors", storey_height=4.0)
-    city = farlod.pack(frame, tmp_path / "floors.farlod", heights=heights)
-    roofs = city.surfaces("roofs", 2.0, points=True)
-    assert sorted({round(z) for z in roofs.geometry.z}) == [8, 12, 20]
-    assert city.crs.to_epsg() == 25832
+    # As the option of farlod-pack is called, and as earlier versions called it
+    for word in ("floor_height", "storey_height"):
+        heights = farlod.Heights(storeys="floors", **{word: 4.0})
+        city = farlod.pack(frame, tmp_path / f"{word}.farlod", heights=heights)
+        roofs = city.surfaces("roofs", 2.0, points=True)
+        assert sorted({round(z) for z in roofs.geometry.z}) == [8, 12, 20]
+        assert city.crs.to_epsg() == 25832
 
 
 def test_mesh_in_memory(tmp_path: Path) -> None:

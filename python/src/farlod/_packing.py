@@ -84,21 +84,24 @@ class Heights:
     height, base, roof, storeys : str, optional
         Attributes with the height above the base, the elevation of the base, the elevation of the roof (metres), and the number
         of storeys.
-    storey_height : float, default 3.0
-        Metres, 1 to 20.
+    floor_height : float, default 3.0
+        Metres, 1 to 20: what a storey counts, as ``--floor-height`` of ``farlod-pack`` says.
     default : float, optional
         Metres, 0.01 to 1,000: for footprints without any height.
     unknown : sequence of float
         Numbers in these attributes that mean that a height is not known, such as 0, -1 and 999.
+    storey_height : float, optional
+        The former name of ``floor_height``, which it replaces where it is given.
     """
 
     height: str | None = None
     base: str | None = None
     roof: str | None = None
     storeys: str | None = None
-    storey_height: float = 3.0
+    floor_height: float = 3.0
     default: float | None = None
     unknown: Sequence[float] = ()
+    storey_height: float | None = None
 
 
 @dataclass(frozen=True)
@@ -143,7 +146,8 @@ def _footprints(heights: Heights, module: Any) -> Any:
         name = getattr(heights, ours)
         if name is not None:
             setattr(fields, theirs, _arguments.path(f"heights.{ours}", name))
-    fields.floor_height_m = _arguments.number("heights.storey_height", heights.storey_height)
+    word = "floor_height" if heights.storey_height is None else "storey_height"
+    fields.floor_height_m = _arguments.number(f"heights.{word}", getattr(heights, word))
     if heights.default is not None:
         fields.default_height_m = _arguments.number("heights.default", heights.default)
     fields.unknown_heights = _arguments.floats("heights.unknown", heights.unknown).tolist()

@@ -13,7 +13,7 @@ _ARGUMENTS = {
     "base-field": "heights.base",
     "roof-field": "heights.roof",
     "storeys-field": "heights.storeys",
-    "floor-height": "heights.storey_height",
+    "floor-height": "heights.floor_height",
     "default-height": "heights.default",
     "unknown-height": "heights.unknown",
     "tree-height-field": "trees.height",

@@ -111,7 +111,10 @@ void add_scale(Drawing& drawing, Pixel upper_left, PixelSize size, const std::fu
   }
 }
 
-void add_scales(Drawing& drawing, Pixel place, const CityScale& scale) {
+/// What the ground of a surface model is: buildings and trees are in it.
+const char* word_of_ground(const CityScenery& scenery) { return scenery.is_surface_model ? "Surface" : "Ground"; }
+
+void add_scales(Drawing& drawing, Pixel place, const CityScenery& scenery, const CityScale& scale) {
   constexpr std::size_t width = 28;
   constexpr int steps = 5;
   const auto words_at = [&](std::size_t y, const std::string& words) {
@@ -124,10 +127,12 @@ void add_scales(Drawing& drawing, Pixel place, const CityScale& scale) {
   std::vector<std::pair<double, std::string>> elevations{{0.0, fmt::format("{:.1f} m", scale.low_m)}};
   // Level ground has one
   if (scale.high_m > scale.low_m) elevations.emplace_back(1.0, fmt::format("{:.1f} m", scale.high_m));
-  words_at(14, "Buildings");
-  words_at(34, "above ground");
-  if (scale.top_m > 0.0) add_scale(drawing, {place.x, place.y + 48}, {width, 200}, colour_of_height, ticks);
-  words_at(294, "Ground");
+  if (scale.top_m > 0.0) {
+    words_at(14, "Buildings");
+    words_at(34, "above ground");
+    add_scale(drawing, {place.x, place.y + 48}, {width, 200}, colour_of_height, ticks);
+  }
+  words_at(294, word_of_ground(scenery));
   words_at(314, "z");
   add_scale(
       drawing, {place.x, place.y + 328}, {width, 100},
@@ -142,6 +147,7 @@ std::string words_of_grid(const CityScenery& scenery) {
 }
 
 std::string words_of_highest(const CityScenery& scenery, const CityScale& scale) {
+  if (scenery.is_surface_model) return "A surface model: buildings are a part of the surface.";
   if (!(scale.top_m > 0.0)) return "No building rises above the ground.";
   const Point2d p = scenery.plan.centre_m(scale.highest_at % scenery.plan.columns, scale.highest_at / scenery.plan.columns);
   return fmt::format("Highest pixel (ring): {:.1f} m above the ground, at {:.0f}, {:.0f}", scale.highest_m, p.x, p.y);
@@ -218,7 +224,7 @@ Drawing draw_city(const CityScenery& scenery) {
   if (scale.top_m > 0.0)
     add_ring(drawing, frame.place_of(scenery.plan.centre_m(scale.highest_at % scenery.plan.columns,
                                                            scale.highest_at / scenery.plan.columns)));
-  add_scales(drawing, layout.colour_bar, scale);
+  add_scales(drawing, layout.colour_bar, scenery, scale);
   const PagePoint footer{static_cast<double>(layout.footer.x), static_cast<double>(layout.footer.y)};
   add_footer(drawing, scenery, scale, footer);
   add_north_arrow(drawing, {static_cast<double>(layout.colour_bar.x) + 48.0, footer.y - 4.0});

@@ -34,6 +34,7 @@ struct CityScenery {
   GridLines grid;
   MarkedPlaces marked;
   std::string package, crs, place;  ///< as the captions call them; no place where it is not known
+  bool is_surface_model = false;    ///< its buildings are a part of its only surface
 };
 
 /// What the colours of a city stand for.

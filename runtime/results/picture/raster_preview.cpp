@@ -286,11 +286,12 @@ PreviewLayout preview_layout(PixelSize map_size) {
   PreviewLayout layout;
   layout.map = {margin, margin + heading_height + gap};
   layout.map_size = map_size;
-  const std::size_t map_column = std::max(map_size.width, narrowest_content - gap - legend_size.width);
-  layout.colour_bar = {margin + map_column + gap, layout.map.y};
+  // The scale stands beside its map, however narrow that is
+  layout.colour_bar = {margin + map_size.width + gap, layout.map.y};
   layout.colour_bar_size = {colour_bar_width, std::min(std::max(map_size.height, legend_size.height / 2), legend_size.height)};
   layout.footer = {margin, layout.map.y + std::max(map_size.height, layout.colour_bar_size.height) + gap};
-  layout.picture = {layout.colour_bar.x + legend_size.width + margin, layout.footer.y + footer_height + margin};
+  layout.picture = {margin + std::max(map_size.width + gap + legend_size.width, narrowest_content) + margin,
+                    layout.footer.y + footer_height + margin};
   return layout;
 }
 
@@ -308,7 +309,8 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, cons
   const PagePoint footer = page_point_of(layout.footer);
   add_scale_bar(drawing, footer, raster.metres_per_pixel);
   add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, background, greys_of(raster, background));
-  add_north_arrow(drawing, {page_point_of(layout.colour_bar).x + 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
+  const double right = static_cast<double>(layout.picture.width - margin);
+  add_north_arrow(drawing, {right - 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
   return drawing;
 }
 

@@ -121,6 +121,25 @@ TEST(QuantityTable, IsTheDocumentedOne) {
   EXPECT_EQ(matches_in(table, "\n\\| `(\\w+)`"), words);
 }
 
+/// Tables have no place for units but the names of columns, and scripts rely on the names that are without.
+TEST(QuantityTable, AUnitThatIsInNoNameIsDocumented) {
+  const std::string page = text_of_file("docs/stages/results.md");
+  const std::size_t begin = page.find("Units are in the column names");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string units = page.substr(begin, page.find("\n\n", begin) - begin);
+  for (const ColumnDescription& column : column_descriptions_of(all_quantities())) {
+    if (column.unit == "1" || column.name.ends_with("_h")) continue;
+    const std::string prefix = column.name.substr(0, column.name.find('_'));
+    EXPECT_THAT(matches_in(units, "`(" + prefix + "(?:_?…)?)`"), testing::SizeIs(1)) << column.name;
+  }
+}
+
+/// Hours of sunshine begin and end with days, which differ from those of the clock.
+TEST(QuantityTable, HoursOfSunshineSayWhoseDaysTheyAreOf) {
+  for (const ColumnDescription& column : column_descriptions_of(all_quantities()))
+    if (column.unit == "h") EXPECT_THAT(column.definition, testing::HasSubstr("local mean time")) << column.name;
+}
+
 TEST(QuantityTable, IsTheListOfThePlugInOfQgis) {
   const std::vector<std::string> lists = matches_in(text_of_file("qgis/farlod/evaluation.py"), "\nQUANTITIES = \\[([^\\]]*)\\]");
   ASSERT_EQ(lists.size(), 1U);

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/picture/city_picture.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "tests/runtime/results/picture/decoded_png.hpp"
 
@@ -68,6 +71,27 @@ TEST_F(CityPicture, RingsTheHighest) {
   EXPECT_EQ(scale_of(scenery_.heights).top_m, 0.0);
   EXPECT_EQ(at(48, 30), colour_of_ground(1.0));
   EXPECT_EQ(at(25, 15), colour_of_ground(1.0));
+}
+
+/// A model of surfaces has no buildings, and is no plain without any.
+TEST_F(CityPicture, ASurfaceModelIsNoGroundWithoutBuildings) {
+  scenery_.heights.highest_m = scenery_.heights.ground_m;
+  const auto words = [&] {
+    std::vector<std::string> all;
+    for (const auto& shape : draw_city(scenery_).shapes)
+      if (const Text* text = std::get_if<Text>(&shape)) all.push_back(text->words);
+    return all;
+  };
+  using testing::Contains, testing::Not;
+  EXPECT_THAT(words(), Contains("No building rises above the ground."));
+  EXPECT_THAT(words(), Contains("Ground"));
+  EXPECT_THAT(words(), Not(Contains("Buildings"))) << "the name of no scale";
+  scenery_.is_surface_model = true;
+  EXPECT_THAT(words(), Contains("A surface model: buildings are a part of the surface."));
+  EXPECT_THAT(words(), Contains("Surface"));
+  EXPECT_THAT(words(), Not(Contains("No building rises above the ground.")));
+  scenery_ = small_city();
+  EXPECT_THAT(words(), Contains("Buildings"));
 }
 
 TEST_F(CityPicture, MarksPlacesOfAReport) {

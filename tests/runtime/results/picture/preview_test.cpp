@@ -86,7 +86,7 @@ TEST(PreviewRaster, SmallRastersAreEnlarged) {
 TEST(PreviewLayout, HoldsAllItsParts) {
   for (const PixelSize map : {PixelSize{1, 1}, PixelSize{1000, 1}, PixelSize{1, 2000}, PixelSize{2000, 2000}}) {
     const PreviewLayout layout = preview_layout(map);
-    EXPECT_LT(layout.map.x + map.width, layout.colour_bar.x);
+    EXPECT_EQ(layout.map.x + map.width + 16, layout.colour_bar.x) << "beside its map, however narrow that is";
     EXPECT_LT(layout.map.y + map.height, layout.footer.y);
     EXPECT_LT(layout.colour_bar.y + layout.colour_bar_size.height, layout.footer.y);
     EXPECT_LT(layout.colour_bar.x + layout.colour_bar_size.width, layout.picture.width);
