@@ -14,9 +14,14 @@ namespace {
 bool has_room(const OutputFormat& format, const RawQuantities& raw, const SvfOptions& o) {
   if (format.holds_bounds) return true;
   if (o.evaluation.bounds) return false;
-  const RequestedQuantities requested = resolved(raw, nullptr);
-  if (!requested.any()) return true;
-  return format.is_picture && (o.source == ReceiverSource::at ? !any_but_irradiation(requested.further) : fits_picture(raw));
+  try {
+    const RequestedQuantities requested = resolved(raw, &format);
+    if (!requested.any()) return true;
+    return format.is_picture && (o.source == ReceiverSource::at ? !any_but_irradiation(requested.further) : fits_picture(raw));
+  } catch (const CLI::ValidationError&) {
+    // Some options go with formats that have quantities of their own, such as those for SOLWEIG
+    return false;
+  }
 }
 
 /// Any format that goes with all that is asked for.
@@ -25,13 +30,13 @@ auto can_be_chosen(const RawQuantities& raw, const SvfOptions& o) {
 }
 
 void require_format_that_fits(const RawQuantities& raw, const SvfOptions& o) {
+  const bool is_for_receivers = fits(*o.format, o.source);
+  if (is_for_receivers && (o.format->holds_bounds || !o.evaluation.bounds)) return;
   const std::string ending = o.output.extension().string(), choice = advice(can_be_chosen(raw, o));
-  if (!fits(*o.format, o.source) && o.source == ReceiverSource::grid)
+  if (!is_for_receivers && o.source == ReceiverSource::grid)
     throw CLI::ValidationError("-o", "--grid makes a raster, which " + ending + " cannot hold: " + choice);
-  if (!fits(*o.format, o.source))
-    throw CLI::ValidationError("-o", "only --grid makes a raster: " + choice + " for points and surfaces");
-  if (o.evaluation.bounds && !o.format->holds_bounds)
-    throw CLI::ValidationError("--bounds", "a file that ends in " + ending + " has no room for bounds: " + choice);
+  if (!is_for_receivers) throw CLI::ValidationError("-o", "only --grid makes a raster: " + choice + " for points and surfaces");
+  throw CLI::ValidationError("--bounds", "a file that ends in " + ending + " has no room for bounds: " + choice);
 }
 
 }  // namespace
