@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
     Options, EachProgram,
     testing::Values(
         Program{"farlod-info",
-                {"--help", "--version", "--json", "--check", "--cell", "--cells", "--svf", "--obj", "--png", "--report",
-                 "--summary", "--quiet", "--threads", "--config"}},
+                {"--help", "--version", "--json", "--check", "--cell", "--cells", "--svf", "--zones", "--zones-layer", "--obj",
+                 "--png", "--report", "--summary", "--quiet", "--threads", "--config"}},
         Program{
             "farlod-pack",
             {"--help",         "--version",        "--crs",          "--out-crs",      "--origin",          "--up",

@@ -94,8 +94,8 @@ class CfPointWriter final : public FeatureWriter {
   CfPointWriter(const TableFrame& frame, const std::filesystem::path& path) : frame_(frame), file_(path) {}
 
   void begin(const FeatureLayer& layer) override {
-    FARLOD_EXPECTS(columns_.empty() && (layer.geometry == LayerGeometry::points || layer.geometry == LayerGeometry::areas));
-    if (layer.geometry == LayerGeometry::areas) coordinates_ = "x_m y_m";
+    FARLOD_EXPECTS(columns_.empty() && (layer.geometry == LayerGeometry::points || is_level(layer.geometry)));
+    if (is_level(layer.geometry)) coordinates_ = "x_m y_m";
     file_.describe(layer.description, frame_.provenance);
     file_.attribute(NetcdfFile::whole_file, "featureType", "point");
     const int point = file_.dimension("point", NetcdfFile::unlimited);
