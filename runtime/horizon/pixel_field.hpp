@@ -92,7 +92,7 @@ class PixelWindow {
   /// Moves to the square with this south-western pixel.
   void look_at(std::int32_t column, std::int32_t row);
   [[nodiscard]] PixelWindowView view() const;
-  /// Of its pixels, how many are torn from a neighbor.
+  /// The share of its pixels that are torn from a neighbor.
   [[nodiscard]] double torn_share() const { return static_cast<double>(torn_) / plane; }
   [[nodiscard]] std::int32_t x_of(std::int32_t column) const { return column - column_; }
   [[nodiscard]] std::int32_t y_of(std::int32_t row) const { return row - row_; }

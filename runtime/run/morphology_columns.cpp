@@ -25,6 +25,10 @@ std::optional<double> displacement_of(const std::optional<Roughness>& r) {
   return r ? std::optional(r->displacement_m) : std::nullopt;
 }
 
+std::optional<double> crown_height_of(const std::optional<CellVegetation>& v) {
+  return v && v->count > 0 ? std::optional(v->height_mean_m) : std::nullopt;
+}
+
 using Morphology = const UrbanForm&;
 
 constexpr MorphologyColumn before_winds[] = {
@@ -64,9 +68,7 @@ constexpr MorphologyColumn before_winds[] = {
     {"crowns", "1", "crowns of trees whose axes stand in the cell",
      [](Morphology c) { return c.vegetation ? std::optional(static_cast<double>(c.vegetation->count)) : std::nullopt; }},
     {"crown_height_mean_m", "m", "mean height of the tops of those crowns above the ground",
-     [](Morphology c) {
-       return c.vegetation && c.vegetation->count > 0 ? std::optional(c.vegetation->height_mean_m) : std::nullopt;
-     }},
+     [](Morphology c) { return crown_height_of(c.vegetation); }},
     {"svf_ground", "1", "mean sky view factor of the ground between buildings", [](Morphology c) { return c.sky.ground; }},
     {"svf_walls", "1", "mean sky view factor of walls, by area", [](Morphology c) { return c.sky.walls; }},
     {"svf_roofs", "1", "mean sky view factor of roofs, by area", [](Morphology c) { return c.sky.roofs; }},
