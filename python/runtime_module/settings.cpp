@@ -17,6 +17,7 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/region.hpp"
 #include "farlod/surfaces.hpp"
+#include "farlod/view_factor_matrix.hpp"
 #include "python/binding/word.hpp"
 #include "python/runtime_module/light.hpp"
 
@@ -151,6 +152,7 @@ void add_settings(py::module_& module) {
   words["canopy_rule"] = texts_of(canopy_rule_words);
   words["which"] = texts_of(surface_choice_words);
   words["kind"] = texts_of(surface_kind_words);
+  words["matrix_rest"] = texts_of(matrix_rest_words);
   module.attr("words") = words;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/stl.h>
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/surfaces.hpp"
+#include "farlod/view_factor_matrix.hpp"
 #include "python/binding/interruptible_run.hpp"
 #include "python/binding/owned_array.hpp"
 #include "python/binding/word.hpp"
@@ -116,11 +118,52 @@ py::dict evaluate_surfaces_in_python(const Package& package, const std::string& 
                   "summary"_a = summary_dict(means.summary));
 }
 
+py::dict dict_of(const MatrixFigures& figures) {
+  const auto spread = [](double mean, double max) { return py::dict("mean"_a = mean, "max"_a = max); };
+  return py::dict("receivers"_a = figures.receivers, "rays"_a = figures.rays,
+                  "reciprocity"_a = spread(figures.reciprocity_mean, figures.reciprocity_max),
+                  "closure"_a = spread(figures.closure_mean, figures.closure_max),
+                  "dropped"_a = spread(figures.dropped_mean, figures.dropped_max), "divided_rows"_a = figures.divided_rows);
+}
+
+/// The arrays of a sparse matrix by SciPy's names and types, and what its rows and columns are.
+py::dict dict_of(ViewFactorMatrix matrix, const std::vector<SurfaceMean>& surfaces) {
+  std::vector<std::int64_t> begins{0};
+  for (const std::uint64_t end : matrix.row_end) begins.push_back(static_cast<std::int64_t>(end));
+  std::vector<std::int32_t> cells;
+  std::vector<double> centres;
+  for (const GroundColumn& ground : matrix.ground) {
+    cells.insert(cells.end(), {ground.cell.i, ground.cell.j});
+    centres.insert(centres.end(), {ground.centre_projected.x, ground.centre_projected.y});
+  }
+  const std::vector<py::ssize_t> pairs{static_cast<py::ssize_t>(matrix.ground.size()), 2};
+  return py::dict("data"_a = owned_array(std::move(matrix.values)),
+                  "indices"_a = owned_array(std::vector<std::int32_t>(matrix.columns.begin(), matrix.columns.end())),
+                  "indptr"_a = owned_array(std::move(begins)), "building"_a = buildings_of(surfaces),
+                  "surface"_a = column<std::uint32_t>(surfaces, [](const SurfaceMean& s) { return s.surface; }),
+                  "area_m2"_a = owned_array(std::move(matrix.area_m2)), "ground_cells"_a = owned_array(std::move(cells), pairs),
+                  "ground_centres_m"_a = owned_array(std::move(centres), pairs), "figures"_a = dict_of(matrix.figures));
+}
+
+py::dict view_factor_matrix_in_python(const Package& package, const std::string& which, double spacing_m, double threshold,
+                                      const EvaluationSettings& settings, const CallerSettings& caller) {
+  const SurfaceSettings surfaces{meaning_of("which", which, surface_choice_words), spacing_m, {}};
+  SurfaceMeans means;
+  ViewFactorMatrix matrix;
+  run_interruptibly(caller, [&](const RunSettings& run) {
+    means = evaluate_surfaces(package, surfaces, settings, {}, run);
+    matrix = view_factor_matrix(package, surfaces, means.surfaces, {threshold}, settings, run);
+  });
+  return dict_of(std::move(matrix), means.surfaces);
+}
+
 }  // namespace
 
 void add_surfaces(py::module_& module) {
   module.def("evaluate_surfaces", &evaluate_surfaces_in_python, py::arg("package"), py::arg("which"), py::arg("spacing_m"),
              py::arg("irradiation_threshold_kwh_m2"), py::arg("points"), py::arg("settings"), py::arg("caller"));
+  module.def("view_factor_matrix", &view_factor_matrix_in_python, py::arg("package"), py::arg("which"), py::arg("spacing_m"),
+             py::arg("threshold"), py::arg("settings"), py::arg("caller"));
 }
 
 }  // namespace farlod

@@ -16,11 +16,12 @@ void require_outputs(const SvfOptions& o) {
                                          {"--city", o.city_file},
                                          {"--weather", o.light ? o.light->weather_file : std::filesystem::path()}}};
   const bool is_folder = o.city_is_folder() || (o.format != nullptr && o.format->is_folder);
-  const std::array<NamedOutput, 6> outputs{{{{"-o", o.output}, is_folder},
+  const std::array<NamedOutput, 7> outputs{{{{"-o", o.output}, is_folder},
                                             {{"--preview", o.preview_file}},
                                             {{"--verify-map", o.verify_file}},
                                             {{"--histogram", o.histogram_file}},
                                             {{"--matrix", o.matrix_file}},
+                                            {{"--energyplus", o.energyplus_file}},
                                             {{"--summary", o.run.summary_file}}}};
   require_writable(outputs, {inputs, o.package});
 }

@@ -23,6 +23,9 @@
 #include "results/output_format.hpp"
 #include "results/picture/cell_picture.hpp"
 #include "results/table/morphology_table.hpp"
+#ifdef FARLOD_WITH_GDAL
+#include "results/gdal_files.hpp"
+#endif
 
 namespace farlod {
 namespace {
@@ -105,17 +108,53 @@ std::vector<CellMorphology> morphology_of(const Package& package, const InfoOpti
   return cells;
 }
 
+RequestedZones zones_in(const InfoOptions& options, const PackageDescription& city) {
+#ifdef FARLOD_WITH_GDAL
+  return gdal_files().read_zones(options.zones_file, options.zones_layer, city.crs_wkt);
+#else
+  throw PointsError(options.zones_file.string() +
+                    " needs GDAL, which this farlod-info was built without: leave --zones out."
+                    " --cells then has a row for each cell, in " +
+                    city.crs_name + ".");
+#endif
+}
+
+std::vector<UrbanForm> forms_of(const Package& package, const RequestedZones& requested, const InfoOptions& options) {
+  ProgressLine progress("zones", options.run.verbosity);
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
+  std::vector<Zone> zones;
+  for (const std::vector<ZonePolygon>& polygons : requested.zones) {
+    Zone& zone = zones.emplace_back();
+    for (const ZonePolygon& polygon : polygons) {
+      zone.push_back(polygon.shell);
+      zone.insert(zone.end(), polygon.holes.begin(), polygon.holes.end());
+    }
+  }
+  return morphology_of_zones(package, zones, run);
+}
+
+/// The options that values depend on.
+std::string settings_of_table(const InfoOptions& options) {
+  if (!options.zones_file.empty()) return "--cells --zones";
+  return options.sky_spacing_m ? fmt::format("--cells --svf {:g}", *options.sky_spacing_m) : "--cells";
+}
+
 void write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
   const PackageDescription& city = facts.description;
   TableFrame frame{.columns = {}, .crs_wkt = city.crs_wkt, .epsg = city.epsg, .convergence = city.convergence};
   frame.columns.further = morphology_columns();
   frame.provenance = {std::string("Far-LoD ") + software_version, facts.package, fmt::format("{:016x}", city.manifest_xxh3),
-                      options.sky_spacing_m ? fmt::format("--cells --svf {:g}", *options.sky_spacing_m) : "--cells"};
-  output_format_of(options.cells_file)->write_cells(morphology_of(package, options), frame, options.cells_file);
+                      settings_of_table(options)};
+  const auto write = output_format_of(options.cells_file)->write_forms;
+  if (options.zones_file.empty()) return write(table_of_cells(morphology_of(package, options)), frame, options.cells_file);
+  const RequestedZones zones = zones_in(options, city);
+  write(table_of_zones(zones, forms_of(package, zones, options)), frame, options.cells_file);
 }
 
 void require_outputs(const InfoOptions& options) {
-  const std::array<NamedFile, 1> inputs{{{"--report", options.report_file}}};
+  const std::array<NamedFile, 2> inputs{{{"--report", options.report_file}, {"--zones", options.zones_file}}};
   const std::array<NamedOutput, 4> outputs{{{{"--obj", options.obj_file}},
                                             {{"--png", options.picture_file}},
                                             {{"--cells", options.cells_file}},

@@ -22,6 +22,7 @@ ProgramDescription info_program() {
           .purpose = "tells what a package of farlod-pack holds, and whether it is whole",
           .examples = {"farlod-info town.farlod", "farlod-info town.farlod --check", "farlod-info town.farlod --png city.png",
                        "farlod-info town.farlod --cells cells.gpkg --svf 2",
+                       "farlod-info town.farlod --cells blocks.csv --zones blocks.gpkg",
                        "farlod-info town.farlod --cell 3,2 --png cell.png --obj cell.obj"},
           .background =
               {"A package holds a city cut into cells, and for each cell what matters of the city far away. The manifest "
@@ -40,11 +41,11 @@ ProgramDescription info_program() {
           .licence = "Apache-2.0"};
 }
 
-bool holds_cells(const OutputFormat& format) { return format.write_cells != nullptr; }
+bool holds_cells(const OutputFormat& format) { return format.write_forms != nullptr; }
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, cell, cells, obj, picture, report;
+  std::string package, cell, cells, zones, obj, picture, report;
 };
 
 void add_cells_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
@@ -57,6 +58,12 @@ void add_cells_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
                  "Metres between receivers: --cells has the mean sky view factors of ground, walls and roofs, too")
       ->check(CLI::Range(0.05, 1000.0))
       ->group("Output");
+  app.add_option("--zones", raw.zones,
+                 "Cut the city by the polygons of this file (GeoPackage, GeoJSON, Shapefile, ... in any CRS) in the place of "
+                 "cells: --cells has a row for each")
+      ->type_name(file_value)
+      ->group("Output");
+  app.add_option("--zones-layer", o.zones_layer, "The layer of --zones, where several hold polygons")->group("Output");
 }
 
 void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
@@ -101,6 +108,14 @@ bool is_table_of_cells(const std::filesystem::path& path) {
   return format != nullptr && holds_cells(*format);
 }
 
+void resolve_zones(const RawOptions& raw, InfoOptions& o) {
+  o.zones_file = raw.zones;
+  if (raw.zones.empty() && !o.zones_layer.empty()) throw CLI::ValidationError("--zones-layer", "it goes with --zones");
+  if (raw.zones.empty()) return;
+  if (raw.cells.empty()) throw CLI::ValidationError("--zones", "it goes with --cells");
+  if (o.sky_spacing_m) throw CLI::ValidationError("--svf", "it is of the cells of the grid: leave it or --zones out");
+}
+
 void resolve(const RawOptions& raw, InfoOptions& o) {
   o.package = raw.package;
   o.obj_file = raw.obj;
@@ -114,6 +129,7 @@ void resolve(const RawOptions& raw, InfoOptions& o) {
   if (!raw.cells.empty() && !is_table_of_cells(o.cells_file))
     throw CLI::ValidationError(
         "--cells", "\"" + raw.cells + "\" is not the name of a table of cells: choose one of " + endings_where(holds_cells));
+  resolve_zones(raw, o);
   if (o.sky_spacing_m && raw.cells.empty()) throw CLI::ValidationError("--svf", "it goes with --cells");
   if (!raw.obj.empty() && !o.cell) throw CLI::ValidationError("--obj", "it goes with --cell");
   if (!raw.report.empty() && (raw.picture.empty() || o.cell))

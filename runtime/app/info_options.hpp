@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "console/run_options.hpp"
 #include "farlod/inspection.hpp"
@@ -17,6 +18,8 @@ struct InfoOptions {
   std::optional<CellPlace> cell;
   std::filesystem::path obj_file, picture_file;  ///< of the cell, or the picture of the city; perhaps empty
   std::filesystem::path cells_file;              ///< of the table of cells; perhaps empty
+  std::filesystem::path zones_file;              ///< of polygons that take the place of cells there; perhaps empty
+  std::string zones_layer;                       ///< of that file; perhaps empty
   std::optional<double> sky_spacing_m;           ///< of the receivers whose sky view factors that table has
   std::filesystem::path report_file;             ///< of problems, for the picture of the city; perhaps empty
   RunOptions run;

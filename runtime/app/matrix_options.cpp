@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/lower_case.hpp"
 #include "console/option_list.hpp"
 
 namespace farlod {
@@ -22,9 +23,31 @@ void add_matrix_options(CLI::App& app, SvfOptions& o) {
       ->capture_default_str()
       ->needs(matrix)
       ->group("Output");
+  app.add_option("--energyplus", o.energyplus_file,
+                 "With --surfaces: also write what each of them sees as objects of EnergyPlus (IDF: "
+                 "SurfaceProperty:SurroundingSurfaces), by --quantity view_factors")
+      ->type_name(file_value)
+      ->group("Output");
 }
 
-void resolve_matrix(const SvfOptions& o) {
+namespace {
+
+void resolve_energyplus(SvfOptions& o) {
+  if (o.energyplus_file.empty()) return;
+  const auto refuse = [](const char* why) { throw CLI::ValidationError("--energyplus", why); };
+  if (o.source != ReceiverSource::surfaces) refuse("it goes with --surfaces");
+  if (lower_case(o.energyplus_file.extension().string()) != ".idf")
+    refuse("EnergyPlus reads IDF: choose a name that ends in .idf");
+  if (!o.city_file.empty()) refuse("it goes with a table of surfaces, not with --city: leave one of the two out");
+  if (o.evaluation.weight != SkyWeight::cosine) refuse("view factors are weighted by the cosine: leave --sky out");
+  if (o.shard) refuse("shards compute sky view factors alone: give it with --merge");
+  o.evaluation.further.view_factors = true;
+}
+
+}  // namespace
+
+void resolve_matrix(SvfOptions& o) {
+  resolve_energyplus(o);
   if (o.matrix_file.empty()) return;
   const auto refuse = [](const char* why) { throw CLI::ValidationError("--matrix", why); };
   if (o.source != ReceiverSource::surfaces) refuse("it goes with --surfaces");

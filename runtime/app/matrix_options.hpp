@@ -10,10 +10,10 @@ class App;
 
 namespace farlod {
 
-/// A matrix of view factors besides -o.
+/// A matrix of view factors, and what surfaces see as EnergyPlus reads it, besides -o.
 void add_matrix_options(CLI::App& app, SvfOptions& o);
 
-/// Once all else is known. Throws CLI::ValidationError.
-void resolve_matrix(const SvfOptions& o);
+/// Once all else is known: asks for what the files need. Throws CLI::ValidationError.
+void resolve_matrix(SvfOptions& o);
 
 }  // namespace farlod

@@ -42,6 +42,7 @@ struct SvfOptions {
   std::filesystem::path city_file;    ///< or a folder: what comes back with the values of surfaces; empty: tables are written
   std::filesystem::path matrix_file;  ///< of view factors between surfaces; empty: none is computed
   MatrixSettings matrix;
+  std::filesystem::path energyplus_file;  ///< of what surfaces see, for EnergyPlus; empty: none
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;

@@ -25,6 +25,7 @@
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "results/picture/raster_preview.hpp"
+#include "results/table/energyplus_idf.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
 #endif
@@ -344,10 +345,13 @@ WrittenRun write_surfaces(const Package& package, const SvfOptions& options, con
   require_answers(written.summary, options, package.description());
   if (!options.matrix_file.empty()) written.matrix = write_matrix(package, options, means, run);
   written.write_s = seconds_of([&] {
+    if (!options.energyplus_file.empty())
+      write_energyplus_idf(means.surfaces, columns_of(options.evaluation.further), options.energyplus_file);
     written.files = writer->commit(means.surfaces, means.buildings);
     histogram.write(options);
   });
   if (written.matrix) written.files.push_back(options.matrix_file);
+  if (!options.energyplus_file.empty()) written.files.push_back(options.energyplus_file);
   return written;
 }
 

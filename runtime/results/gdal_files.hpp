@@ -8,6 +8,7 @@
 #include "inputs/raster_reader_gdal.hpp"
 #include "inputs/reproject_gdal.hpp"
 #include "inputs/vector_reader_gdal.hpp"
+#include "inputs/zone_reader_gdal.hpp"
 #include "results/crs_gdal.hpp"
 #include "results/module.hpp"
 #include "results/raster/raster_writer.hpp"
@@ -33,6 +34,7 @@ struct GdalFiles {
   decltype(&read_raster_grid_gdal) read_raster_grid;
   decltype(&read_region_gdal) read_region;
   decltype(&read_table_gdal) read_table;
+  decltype(&read_zones_gdal) read_zones;
   decltype(&farlod::reprojected) reprojected;
   decltype(&farlod::reprojected_each) reprojected_each;
 };

@@ -26,6 +26,7 @@ constexpr GdalFiles functions{.geotiff = geotiff_writer,
                               .read_raster_grid = read_raster_grid_gdal,
                               .read_region = read_region_gdal,
                               .read_table = read_table_gdal,
+                              .read_zones = read_zones_gdal,
                               .reprojected = reprojected,
                               .reprojected_each = reprojected_each};
 

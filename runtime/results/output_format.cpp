@@ -8,7 +8,6 @@
 #include "results/mesh/mesh_file.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
-#include "results/table/morphology_table.hpp"
 #include "results/table/sky_features.hpp"
 #include "results/table/sky_table_csv.hpp"
 #include "results/table/sky_table_ply.hpp"
@@ -51,8 +50,8 @@ std::unique_ptr<SurfaceTablesWriter> make_surface_tables_csv(const TableFrame& f
   return std::make_unique<SurfaceTablesCsv>(frame.columns, path);
 }
 
-void write_cells_csv_of(std::span<const CellMorphology> cells, const TableFrame&, const std::filesystem::path& path) {
-  write_morphology_csv(cells, path);
+void write_forms_csv_of(const FormTable& table, const TableFrame&, const std::filesystem::path& path) {
+  write_morphology_csv(table, path);
 }
 
 void write_points_ply_of(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) {
@@ -89,9 +88,9 @@ void write_points_by(const PointRows& rows, const TableFrame& frame, const std::
 }
 
 template <auto make_writer>
-void write_cells_by(std::span<const CellMorphology> cells, const TableFrame& frame, const std::filesystem::path& path) {
+void write_forms_by(const FormTable& table, const TableFrame& frame, const std::filesystem::path& path) {
   const std::unique_ptr<FeatureWriter> writer = (gdal_files().*make_writer)(frame, path);
-  write_morphology_as_features(cells, *writer);
+  write_morphology_as_features(table, *writer);
   writer->commit();
 }
 
@@ -140,7 +139,7 @@ constexpr OutputFormat formats[] = {
      .raster_writer_bytes = netcdf_bytes,
      .write_points = write_points_by<&GdalFiles::netcdf_points>,
      .surface_tables_writer = make_layer_beside_csv<&GdalFiles::netcdf_points>,
-     .write_cells = write_cells_by<&GdalFiles::netcdf_points>,
+     .write_forms = write_forms_by<&GdalFiles::netcdf_points>,
      .bytes_of_pixel = 1.5,
      .bytes_of_row = 16.0,
      .bytes_of_value = 4.0},
@@ -173,7 +172,7 @@ constexpr OutputFormat formats[] = {
      .holds_bounds = true,
      .write_points = write_points_csv_of,
      .surface_tables_writer = make_surface_tables_csv,
-     .write_cells = write_cells_csv_of,
+     .write_forms = write_forms_csv_of,
      .bytes_of_row = 25.0,
      .bytes_of_value = 7.4},
 #ifdef FARLOD_WITH_GDAL
@@ -182,7 +181,7 @@ constexpr OutputFormat formats[] = {
      .holds_bounds = true,
      .write_points = write_points_by<&GdalFiles::geopackage>,
      .surface_tables_writer = make_layers<&GdalFiles::geopackage>,
-     .write_cells = write_cells_by<&GdalFiles::geopackage>,
+     .write_forms = write_forms_by<&GdalFiles::geopackage>,
      .bytes_of_row = 73.0,
      .bytes_of_value = 7.3},
     {.name = "GeoJSON",
@@ -190,7 +189,7 @@ constexpr OutputFormat formats[] = {
      .holds_bounds = true,
      .write_points = write_points_by<&GdalFiles::geojson>,
      .surface_tables_writer = make_files<&GdalFiles::geojson>,
-     .write_cells = write_cells_by<&GdalFiles::geojson>,
+     .write_forms = write_forms_by<&GdalFiles::geojson>,
      .bytes_of_row = 140.0,
      .bytes_of_value = 30.0},
     {.name = "FlatGeobuf",
@@ -198,7 +197,7 @@ constexpr OutputFormat formats[] = {
      .holds_bounds = true,
      .write_points = write_points_by<&GdalFiles::flatgeobuf>,
      .surface_tables_writer = make_files<&GdalFiles::flatgeobuf>,
-     .write_cells = write_cells_by<&GdalFiles::flatgeobuf>,
+     .write_forms = write_forms_by<&GdalFiles::flatgeobuf>,
      .bytes_of_row = 175.0,
      .bytes_of_value = 7.9},
 #endif

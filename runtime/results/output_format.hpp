@@ -12,8 +12,8 @@
 #include <string_view>
 
 #include "farlod/building_origin.hpp"
-#include "farlod/morphology.hpp"
 #include "results/raster/raster_writer.hpp"
+#include "results/table/morphology_table.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {
@@ -40,9 +40,8 @@ struct OutputFormat {
   std::unique_ptr<SurfaceTablesWriter> (*surface_tables_writer)(const TableFrame& frame,
                                                                 const std::filesystem::path& path) = nullptr;
 
-  /// Writes a row for each cell of the grid; null where the format holds no such table.
-  void (*write_cells)(std::span<const CellMorphology> cells, const TableFrame& frame,
-                      const std::filesystem::path& path) = nullptr;
+  /// Writes a row for each cell of the grid, or polygon in its place; null where the format holds no such table.
+  void (*write_forms)(const FormTable& table, const TableFrame& frame, const std::filesystem::path& path) = nullptr;
 
   /// What a file has for each band of a pixel, for each row of a table, and for each of its values, more or less: for estimates.
   double bytes_of_pixel = 0.0, bytes_of_row = 0.0, bytes_of_value = 0.0;

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <cstddef>
+#include <ios>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/acceptance/packed_town.hpp"
 
-// farlod-info --cells, as users type it
+// farlod-info --cells, and --zones, as users type it
 
 namespace farlod::acceptance {
 namespace {
@@ -51,6 +56,73 @@ TEST_F(PackedTown, TablesOfCellsAreTheSameInEachFormat) {
     EXPECT_EQ(features[n].at("properties").at("lambda_p").get<double>(), cells.number(n, "lambda_p"));
     EXPECT_EQ(features[n].at("properties").at("lambda_f_022").get<double>(), cells.number(n, "lambda_f_022"));
   }
+}
+
+/// Two halves of a large square around the town, of which the eastern one has a hole at a corner of no block, and comes in two
+/// parts.
+class ZonesOfTown : public PackedTown {
+ protected:
+  ZonesOfTown() {
+    const Point2d m = town_middle;
+    const auto ring = [&](double west, double south, double east, double north) {
+      return text_of_ring(
+          {m + Point2d{west, south}, m + Point2d{east, south}, m + Point2d{east, north}, m + Point2d{west, north}});
+    };
+    folder.write("zones.geojson",
+                 std::string(R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":")") + town_crs +
+                     R"("}},"features":[{"type":"Feature","properties":{"name":"west","lambda_p":7},"geometry":)" +
+                     R"({"type":"Polygon","coordinates":[)" + ring(-600, -600, 3.5, 600) +
+                     R"(]}},{"type":"Feature","properties":{"name":"east","lambda_p":8},"geometry":)" +
+                     R"({"type":"MultiPolygon","coordinates":[[)" + ring(3.5, -600, 600, 0) + "],[" + ring(3.5, 0, 600, 600) +
+                     "," + ring(400, 400, 500, 500) + "]]}}]}");
+  }
+  static std::string text_of_ring(const std::vector<Point2d>& corners) {
+    std::ostringstream text;
+    text << std::fixed << "[";
+    for (const Point2d p : corners) text << "[" << p.x << "," << p.y << "],";
+    text << "[" << corners[0].x << "," << corners[0].y << "]]";
+    return text.str();
+  }
+};
+
+TEST_F(ZonesOfTown, HaveTheSumsOfTheCellsAndTheirFields) {
+  folder.must("farlod-info a.farlod --cells cells.csv --quiet");
+  folder.must("farlod-info a.farlod --cells zones.csv --zones zones.geojson --quiet");
+  const CsvTable cells = table("cells.csv"), zones = table("zones.csv");
+  ASSERT_EQ(zones.size(), 2U);
+  for (const char* column : {"building_plan_area_m2", "roof_area_m2", "wall_area_m2", "building_volume_m3"}) {
+    double of_cells = 0.0;
+    for (std::size_t n = 0; n < cells.size(); ++n) of_cells += cells.number(n, column);
+    EXPECT_NEAR(zones.number(0, column) + zones.number(1, column), of_cells, 0.001 * static_cast<double>(cells.size() + 2))
+        << column;
+    EXPECT_GT(zones.number(0, column), 0.4 * of_cells) << column;
+  }
+  EXPECT_EQ(zones.header()[0], "zone");
+  EXPECT_EQ(zones.text(1, "zone"), "2");
+  EXPECT_EQ(zones.text(1, "name"), "east");
+  EXPECT_EQ(zones.text(1, "lambda_p_input"), "8") << "the file has a field that is called like a column";
+  EXPECT_LT(zones.number(1, "lambda_p"), 1.0);
+  EXPECT_NEAR(zones.number(1, "area_m2"), 596.5 * 1200.0 - 100.0 * 100.0, 0.01);
+  EXPECT_NEAR(zones.number(0, "x_m"), town_middle.x - 298.25, 0.001);
+  // A square of 100 m less, 450 − 301.75 m from the middle of the whole
+  EXPECT_NEAR(zones.number(1, "x_m"), town_middle.x + 301.75 - 148.25 * 10000.0 / (596.5 * 1200.0 - 10000.0), 0.001);
+}
+
+TEST_F(ZonesOfTown, AreTheSameInEachFormat) {
+  for (const char* name : {"zones.gpkg", "out.geojson", "zones.fgb", "zones.nc"})
+    folder.must("farlod-info a.farlod --quiet --zones zones.geojson --cells " + std::string(name));
+  const nlohmann::json features = folder.json_of("out.geojson").at("features");
+  ASSERT_EQ(features.size(), 2U);
+  EXPECT_EQ(features[0].at("geometry").at("type"), "MultiPolygon");
+  EXPECT_EQ(features[0].at("properties").at("name"), "west");
+  const nlohmann::json& parts = features[1].at("geometry").at("coordinates");
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].size(), 1U);
+  EXPECT_EQ(parts[1].size(), 2U) << "the second part has a hole";
+  // What was written is read again; rows of a FlatGeobuf are in the order of its index
+  folder.must("farlod-info a.farlod --quiet --cells one.csv --zones zones.gpkg");
+  folder.must("farlod-info a.farlod --quiet --cells two.csv --zones zones.fgb --zones-layer zones");
+  EXPECT_EQ(table("one.csv").sums_by({"name"}, "wall_area_m2"), table("two.csv").sums_by({"name"}, "wall_area_m2"));
 }
 #endif
 

@@ -59,8 +59,8 @@ INSTANTIATE_TEST_SUITE_P(
     Options, EachProgram,
     testing::Values(
         Program{"farlod-info",
-                {"--help", "--version", "--json", "--check", "--cell", "--cells", "--svf", "--obj", "--png", "--report",
-                 "--summary", "--quiet", "--threads", "--config"}},
+                {"--help", "--version", "--json", "--check", "--cell", "--cells", "--svf", "--zones", "--zones-layer", "--obj",
+                 "--png", "--report", "--summary", "--quiet", "--threads", "--config"}},
         Program{
             "farlod-pack",
             {"--help",         "--version",        "--crs",          "--out-crs",      "--origin",          "--up",
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                                "--grid-like",   "--dry-run",        "--verify-map", "--histogram",    "--resume",
                                "--shard",       "--merge",          "--weather",    "--period",       "--step",
                                "--linke",       "--sky-model",      "--albedo",     "--by",           "--irradiation-threshold",
-                               "--within",      "--matrix",         "--at"}},
+                               "--within",      "--matrix",         "--at",         "--energyplus"}},
         Program{"farlod-view",
                 {"--help", "--version", "--port", "--listen", "--export", "--summary", "--quiet", "--threads", "--config"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <numbers>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "farlod/error.hpp"
 #include "results/picture/picture.hpp"
@@ -337,6 +340,22 @@ TEST_F(PackedTown, AMatrixHasARowForEachRowOfItsTableWhateverTheThreads) {
   EXPECT_TRUE(folder.text_of("o.surfaces.csv") == folder.text_of("p.surfaces.csv"));
   folder.must(run + "-o q.csv --matrix coarse.npz --matrix-threshold 0.5");
   EXPECT_LT(folder.json_of("s.json").at("matrix").at("entries"), matrix.at("entries"));
+}
+
+TEST_F(PackedTown, ObjectsOfEnergyPlusHaveTheViewFactorsOfTheTable) {
+  folder.must("farlod-svf a.farlod --surfaces walls --spacing 5 --rays 200 -o o.csv --energyplus o.IDF --summary s.json");
+  EXPECT_EQ(folder.json_of("s.json").at("quantities").at(0), "view_sky");
+  const CsvTable surfaces = table("o.surfaces.csv");
+  std::istringstream lines(folder.text_of("o.IDF"));
+  std::size_t row = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_ground = line.find("!- Ground View Factor") != std::string::npos;
+    if (!is_ground && line.find("!- Sky View Factor") == std::string::npos) continue;
+    // Both are rounded, and one of the parts gives a millionth or some
+    EXPECT_NEAR(std::stod(line), surfaces.number(row, is_ground ? "view_ground_mean" : "view_sky_mean"), 1e-5) << row;
+    if (is_ground) ++row;
+  }
+  EXPECT_EQ(row, surfaces.size());
 }
 
 }  // namespace

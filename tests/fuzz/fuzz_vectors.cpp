@@ -5,6 +5,7 @@
 #include "base/expects.hpp"
 #include "farlod/region.hpp"
 #include "inputs/vector_reader_gdal.hpp"
+#include "inputs/zone_reader_gdal.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 
@@ -29,5 +30,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   expect_answer_or_refusal([&] { expect_places(read_points_gdal(file, "")); });
   expect_answer_or_refusal([&] { expect_places(read_lines_gdal(file, "", {1000.0, "", package_crs})); });
   expect_answer_or_refusal([&] { (void)read_region_gdal(file, package_crs); });
+  expect_answer_or_refusal([&] { (void)read_zones_gdal(file, "", package_crs); });
   return 0;
 }

@@ -11,6 +11,7 @@ import numpy as np
 import pandas
 import pytest
 import shapely.geometry
+import xarray
 from conftest import CANYON_HEIGHT, run_program
 
 import farlod
@@ -25,6 +26,24 @@ def test_same_table_as_the_program(village: farlod.City, tmp_path: Path) -> None
         # Tables have millimetres of a length, and six digits of a share
         np.testing.assert_allclose(cells[column], expected[column].astype(float), rtol=0, atol=6e-4, equal_nan=True, err_msg=column)
     assert cells.buildings.dtype.kind == "i" and cells.crs == village.crs
+
+
+def test_netcdf_says_what_its_variables_are(village: farlod.City, tmp_path: Path) -> None:
+    run_program("farlod-info", village.path, "--cells", tmp_path / "cells.nc")
+    with xarray.open_dataset(tmp_path / "cells.nc") as cells:
+        unknown = [name for name, variable in cells.variables.items() if name != "crs" and not {"units", "long_name"} <= set(variable.attrs)]
+        assert not unknown
+        assert cells.area_m2.attrs["long_name"] == "plan area of the cell"
+        names = {name: variable.attrs["standard_name"] for name, variable in cells.variables.items() if "standard_name" in variable.attrs}
+    roughness = "surface_roughness_length_for_momentum_in_air"
+    assert names == {
+        "x_m": "projection_x_coordinate",
+        "y_m": "projection_y_coordinate",
+        "area_m2": "cell_area",
+        "vegetation_fraction": "vegetation_area_fraction",
+        "z0_macdonald_m": roughness,
+        "z0_kanda_m": roughness,
+    }
 
 
 def test_squares_lie_where_the_columns_say(village: farlod.City) -> None:

@@ -28,6 +28,7 @@ def walls(city: farlod.City) -> object:
     grid = city.svf_grid(2.0, bbox=(0.0, 0.0, 10.0, 10.0), chunks=512, quantities=["hidden"])
     frame = city.surfaces("walls", spacing=1.0, progress=listen)
     print(city.cells(2.0, threads=1, progress=listen))
+    print(city.view_factor_matrix("walls", spacing=1.0, rays=500).seen("sky").mean())
     try:
         city.look_up((0.0, 0.0))
     except farlod.InvalidPoint as error:

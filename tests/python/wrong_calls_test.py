@@ -170,6 +170,14 @@ CALLS = {
         (("walls",), dict(irradiation_threshold=800.0), "irradiation"),
         (("walls",), dict(light=SUN, irradiation_threshold=-1.0), "threshold"),
     ],
+    "view_factor_matrix": [
+        (("doors",), {}, '"roofs"'),
+        (("walls", 0.0), {}, "spacing"),
+        ((), dict(threshold=2.0), "threshold"),
+        ((), dict(threshold="small"), "threshold"),
+        ((), dict(mask=LINE), "polygons"),
+        ((), dict(rays=0), "rays"),
+    ],
     "plot": [((xarray.Dataset(),), {}, "coordinates"), ((xarray.Dataset(),), dict(step=2.0), "grid and step"), ((), dict(step=-1.0), "step")],
     "check": [((), dict(threads=1.5), "threads")],
 }

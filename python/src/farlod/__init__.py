@@ -23,6 +23,7 @@ from farlod._light import Light
 from farlod._modules import runtime as _runtime
 from farlod._packing import Heights, Problem, ProblemsWarning, Report, Trees, pack
 from farlod._settings import Options
+from farlod._view_factors import ViewFactorMatrix
 from farlod.errors import (
     Cancelled,
     Error,
@@ -61,6 +62,7 @@ __all__ = [
     "Report",
     "SvfInterval",
     "Trees",
+    "ViewFactorMatrix",
     "open",
     "pack",
 ]

@@ -20,6 +20,7 @@ from farlod._modules import runtime as _runtime
 from farlod._points import PointsOfCity
 from farlod._regions import region_of
 from farlod._settings import Above, Evaluation, Metric, Options, Progress, Quantity, caller_settings
+from farlod._view_factors import ViewFactorsOfCity
 from farlod.errors import InvalidArgument, PackageUnusable
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity, CellsOfCity):
+class City(PointsOfCity, IrradiationOfCity, HemispheresOfCity, CellsOfCity, ViewFactorsOfCity):
     """A city in memory: an open package. Made by :func:`farlod.open` and :func:`farlod.pack`.
 
     Any number of threads may use one city. It can be pickled, and is opened again where it is unpickled. As a context manager

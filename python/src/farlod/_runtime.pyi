@@ -139,6 +139,17 @@ class _Surfaces(TypedDict):
     points: dict[str, Any]
     summary: dict[str, Any]
 
+class _ViewFactorMatrix(TypedDict):
+    data: _Floats32
+    indices: npt.NDArray[np.int32]
+    indptr: npt.NDArray[np.int64]
+    building: list[str]
+    surface: npt.NDArray[np.uint32]
+    area_m2: _Floats64
+    ground_cells: npt.NDArray[np.int32]
+    ground_centres_m: _Floats64
+    figures: dict[str, Any]
+
 class _Cells(TypedDict):
     i: npt.NDArray[np.int32]
     j: npt.NDArray[np.int32]
@@ -184,6 +195,14 @@ def evaluate_surfaces(
     settings: EvaluationSettings,
     caller: CallerSettings,
 ) -> _Surfaces: ...
+def view_factor_matrix(
+    package: Package,
+    which: str,
+    spacing_m: float,
+    threshold: float,
+    settings: EvaluationSettings,
+    caller: CallerSettings,
+) -> _ViewFactorMatrix: ...
 def light_of_period(
     weather_file: str, period: str, step_minutes: int, linke_turbidity: float, longitude_deg: float, latitude_deg: float
 ) -> _PeriodLight: ...

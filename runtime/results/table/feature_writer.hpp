@@ -22,8 +22,13 @@ struct FeatureField {
   FieldType type = FieldType::text;
 };
 
-/// What the rows of a layer are. Areas are polygons in the plan.
-enum class LayerGeometry : std::uint8_t { none, points, polygons, areas };
+/// What the rows of a layer are. Areas are polygons in the plan, one in each row; multiple areas, some in each row.
+enum class LayerGeometry : std::uint8_t { none, points, polygons, areas, multiple_areas };
+
+/// Whether its polygons are in the plan.
+[[nodiscard]] constexpr bool is_level(LayerGeometry geometry) {
+  return geometry == LayerGeometry::areas || geometry == LayerGeometry::multiple_areas;
+}
 
 /// A table whose rows may have a place, as GIS programs know them.
 struct FeatureLayer {
@@ -60,7 +65,7 @@ class FeatureWriter {
 
 /// Writes layers by GDAL, in the CRS of the frame:
 ///   (1) Coordinates are rounded to the millimetre, and places have three. z of a point is NaN where the height is not known.
-///       Polygons are those of a MultiPolygon Z, areas are polygons of two coordinates.
+///       Polygons are those of a MultiPolygon Z, areas are polygons of two coordinates, and multiple areas a MultiPolygon.
 ///   (2) Fields are text, 64-bit integers or doubles, and null where a feature has no value.
 ///   (3) The same features give the same bytes. What a file calls its date is 1 January 1970, or OGR_CURRENT_DATE where the
 ///       environment has it.
@@ -70,7 +75,7 @@ class FeatureWriter {
 /// Writes one layer as GeoJSON (RFC 7946):
 ///   (1) Coordinates are longitude and latitude in WGS 84 with eight digits after the point, which is a millimetre. The third is
 ///       the height as the package has it; there is none where it is not known. Without a CRS, coordinates stay as they are.
-///       Polygons are those of a MultiPolygon; without geometry, it is null.
+///       Polygons and multiple areas are those of a MultiPolygon; without geometry, it is null.
 ///   (2) Properties are all fields of the layer; null where a feature has no value.
 ///   (3) The frame's provenance is a member of the collection, which readers that do not know it skip.
 [[nodiscard]] std::unique_ptr<FeatureWriter> geojson_writer(const TableFrame& frame, const std::filesystem::path& path);

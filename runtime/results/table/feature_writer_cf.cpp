@@ -22,16 +22,26 @@ struct Meaning {
   std::string name, unit, text, standard_name;
 };
 
-const std::array<Meaning, 8>& meanings_of_places() {
-  static const std::array<Meaning, 8> meanings{{{"x_m", "m", "easting", "projection_x_coordinate"},
-                                                {"y_m", "m", "northing", "projection_y_coordinate"},
-                                                {"z_m", "m", "height, as the package has it", ""},
-                                                {"height_above_ground_m", "m", "height above the ground", ""},
-                                                {"azimuth_deg", "degree", "where it faces, clockwise from true north", ""},
-                                                {"tilt_deg", "degree", "0 straight up, 90 of a wall", ""},
-                                                {"area_m2", "m2", "area that the receiver stands for", ""},
-                                                {"surface", "1", "number of the surface in its building", ""}}};
+const std::array<Meaning, 11>& meanings_of_places() {
+  static const std::array<Meaning, 11> meanings{{{"x_m", "m", "easting", "projection_x_coordinate"},
+                                                 {"y_m", "m", "northing", "projection_y_coordinate"},
+                                                 {"z_m", "m", "height, as the package has it", ""},
+                                                 {"height_above_ground_m", "m", "height above the ground", ""},
+                                                 {"azimuth_deg", "degree", "where it faces, clockwise from true north", ""},
+                                                 {"tilt_deg", "degree", "0 straight up, 90 of a wall", ""},
+                                                 {"area_m2", "m2", "area that the receiver stands for", ""},
+                                                 {"surface", "1", "number of the surface in its building", ""},
+                                                 {"i", "1", "column of the cell in the grid", ""},
+                                                 {"j", "1", "row of the cell in the grid", ""},
+                                                 {"zone", "1", "number of the polygon in its file", ""}}};
   return meanings;
+}
+
+/// Names of the conventions' table, for columns that have one there; else empty.
+std::string standard_name_of(const std::string& column) {
+  if (column == "area_m2") return "cell_area";
+  if (column == "vegetation_fraction") return "vegetation_area_fraction";
+  return column.starts_with("z0_") ? "surface_roughness_length_for_momentum_in_air" : "";
 }
 
 bool is_coordinate(const std::string& name) { return name == "x_m" || name == "y_m" || name == "z_m"; }
@@ -94,8 +104,8 @@ class CfPointWriter final : public FeatureWriter {
   CfPointWriter(const TableFrame& frame, const std::filesystem::path& path) : frame_(frame), file_(path) {}
 
   void begin(const FeatureLayer& layer) override {
-    FARLOD_EXPECTS(columns_.empty() && (layer.geometry == LayerGeometry::points || layer.geometry == LayerGeometry::areas));
-    if (layer.geometry == LayerGeometry::areas) coordinates_ = "x_m y_m";
+    FARLOD_EXPECTS(columns_.empty() && (layer.geometry == LayerGeometry::points || is_level(layer.geometry)));
+    if (is_level(layer.geometry)) coordinates_ = "x_m y_m";
     file_.describe(layer.description, frame_.provenance);
     file_.attribute(NetcdfFile::whole_file, "featureType", "point");
     const int point = file_.dimension("point", NetcdfFile::unlimited);
@@ -135,18 +145,21 @@ class CfPointWriter final : public FeatureWriter {
     return {variable, field.type};
   }
   void describe(int variable, const FeatureField& field, const std::vector<Band>& bands) {
-    if (const auto m = std::ranges::find(meanings_of_places(), field.name, &Meaning::name); m != meanings_of_places().end()) {
-      file_.attribute(variable, "units", m->unit);
-      file_.attribute(variable, "long_name", m->text);
-      if (!m->standard_name.empty()) file_.attribute(variable, "standard_name", m->standard_name);
-      if (field.name == "z_m") file_.attribute(variable, "positive", "up");
-    } else if (const auto band = std::ranges::find(bands, field.name, &Band::name); band != bands.end()) {
-      file_.attribute(variable, "units", band->unit);
-      file_.attribute(variable, "long_name", band->definition);
-    }
+    const auto& places = meanings_of_places();
+    // The area of a cell is not that of a receiver, whose column has the same name
+    if (const auto band = std::ranges::find(bands, field.name, &Band::name); band != bands.end())
+      describe(variable, {field.name, band->unit, band->definition, standard_name_of(field.name)});
+    else if (const auto place = std::ranges::find(places, field.name, &Meaning::name); place != places.end())
+      describe(variable, *place);
     if (is_coordinate(field.name)) return;
     file_.attribute(variable, "coordinates", coordinates_);
     if (!frame_.crs_wkt.empty()) file_.attribute(variable, "grid_mapping", "crs");
+  }
+  void describe(int variable, const Meaning& meaning) {
+    file_.attribute(variable, "units", meaning.unit);
+    file_.attribute(variable, "long_name", meaning.text);
+    if (!meaning.standard_name.empty()) file_.attribute(variable, "standard_name", meaning.standard_name);
+    if (meaning.name == "z_m") file_.attribute(variable, "positive", "up");
   }
   void put_rows() {
     for (Column& column : columns_)

@@ -71,6 +71,8 @@ OGRwkbGeometryType gdal_type_of(LayerGeometry geometry) {
       return wkbPoint25D;
     case LayerGeometry::polygons:
       return wkbMultiPolygon25D;
+    case LayerGeometry::multiple_areas:
+      return wkbMultiPolygon;
     case LayerGeometry::areas:
       break;
   }
@@ -102,6 +104,12 @@ std::unique_ptr<OGRPolygon> area_of(const SurfacePolygon& p) {
 std::unique_ptr<OGRMultiPolygon> multipolygon_of(const std::vector<SurfacePolygon>& polygons) {
   auto all = std::make_unique<OGRMultiPolygon>();
   for (const SurfacePolygon& p : polygons) all->addGeometryDirectly(polygon_of(p).release());
+  return all;
+}
+
+std::unique_ptr<OGRMultiPolygon> areas_of(const std::vector<SurfacePolygon>& polygons) {
+  std::unique_ptr<OGRMultiPolygon> all = multipolygon_of(polygons);
+  all->flattenTo2D();
   return all;
 }
 
@@ -158,6 +166,7 @@ class GdalFeatureWriter final : public FeatureWriter {
     for (std::size_t n = 0; n < row.values.size(); ++n) set_value(feature, static_cast<int>(n), row.values[n]);
     if (geometry_ == LayerGeometry::points) set_point(row);
     if (geometry_ == LayerGeometry::polygons) feature.SetGeometryDirectly(multipolygon_of(row.polygons).release());
+    if (geometry_ == LayerGeometry::multiple_areas) feature.SetGeometryDirectly(areas_of(row.polygons).release());
     if (geometry_ == LayerGeometry::areas) feature.SetGeometryDirectly(area_of(row.polygons.front()).release());
     if (layer_->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
       throw OutputError(file_.destination(), "a row was refused");

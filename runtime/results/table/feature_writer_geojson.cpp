@@ -111,7 +111,7 @@ void GeojsonWriter::add_place(Point2d p, std::optional<double> height_m) {
 }
 
 std::size_t GeojsonWriter::add_ring(const std::vector<Point3d>& corners) {
-  for (const Point3d& p : corners) add_place({p.x, p.y}, geometry_ == LayerGeometry::areas ? std::nullopt : std::optional(p.z));
+  for (const Point3d& p : corners) add_place({p.x, p.y}, is_level(geometry_) ? std::nullopt : std::optional(p.z));
   return corners.size();
 }
 

@@ -67,15 +67,6 @@ FieldType type_of(std::string_view text) {
   return is_short && is_whole_text(text, real) && std::isfinite(real) ? FieldType::real : FieldType::text;
 }
 
-FieldValue attribute_value(std::string_view text, FieldType type) {
-  if (text.empty()) return {};
-  std::int64_t whole_number = 0;
-  double real = 0.0;
-  if (type == FieldType::whole && is_whole_text(text, whole_number)) return whole_number;
-  if (type == FieldType::real && is_whole_text(text, real)) return real;
-  return text;
-}
-
 /// None without a package.
 std::unique_ptr<SurfaceShapes> shapes_of(const TableFrame& frame, std::span<const BuildingMean> buildings,
                                          const std::filesystem::path& path) {
@@ -104,6 +95,15 @@ FieldType type_of_column(const Attributes& attributes, std::size_t column, std::
     type = !type || one == FieldType::text ? one : *type == one ? one : FieldType::real;
   }
   return type.value_or(FieldType::text);
+}
+
+FieldValue attribute_value(std::string_view text, FieldType type) {
+  if (text.empty()) return {};
+  std::int64_t whole_number = 0;
+  double real = 0.0;
+  if (type == FieldType::whole && is_whole_text(text, whole_number)) return whole_number;
+  if (type == FieldType::real && is_whole_text(text, real)) return real;
+  return text;
 }
 
 void write_points_as_features(const PointRows& rows, const TableFrame& frame, FeatureWriter& writer) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,8 @@ void write_buildings_as_features(std::span<const BuildingMean> rows, const Table
 /// nothing; a column without values is text. Numbers with zeros before them (`007`), with a plus, or of more digits than fit
 /// are text: a number would not come back as it was.
 [[nodiscard]] FieldType type_of_column(const Attributes& attributes, std::size_t column, std::size_t rows);
+/// A field of such a column; none where it is empty.
+[[nodiscard]] FieldValue attribute_value(std::string_view text, FieldType type);
 
 /// The three tables of surfaces as layers of one file.
 class SurfaceTablesInLayers : public SurfaceTablesWriter {
