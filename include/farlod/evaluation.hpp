@@ -170,8 +170,8 @@ struct EvaluationSummary {
   /// Receivers in cells of the grid that have no far map (PackSettings::area). All engines but near_only, which needs none,
   /// traced them against the whole city.
   std::size_t without_far_map = 0;
-  std::optional<double> svf_min, svf_mean, svf_max;
-  std::optional<double> svf_median;  ///< within .00005
+  std::optional<double> svf_min, svf_mean, svf_max;  ///< mean and median of receivers on surfaces: weighted by area
+  std::optional<double> svf_median;                  ///< within .00005
   /// The receivers of a raster above the ground whose distance to a building in the plan is near_buildings_m at the most, and
   /// their mean.
   std::size_t near_buildings = 0;
