@@ -25,9 +25,9 @@ struct Change {
 /// whether it changes values.
 [[maybe_unused]] void all_members_are_known(SvfOptions& o) {
   [[maybe_unused]] auto& [package, output, format, preview_format, verify_format, source, grid_step_m, grid_like, own_pixels,
-                          points_file, points_crs, points_layer, surfaces, city_file, matrix_file, matrix, at, placing, bbox,
-                          mask, evaluation, sunshine, names_quantities, drawn_quantity, light_request, preview, verify_file,
-                          histogram, projection, memory_limit, resume, merge, shard, run] = o;
+                          points_file, points_crs, points_layer, surfaces, city_file, matrix_file, matrix, energyplus_file, at,
+                          placing, bbox, mask, evaluation, sunshine, names_quantities, drawn_quantity, light_request, preview,
+                          verify_file, histogram, projection, memory_limit, resume, merge, shard, run] = o;
   [[maybe_unused]] auto& [choice, spacing_m, irradiation_threshold] = surfaces;
   [[maybe_unused]] auto& [threshold] = matrix;
   [[maybe_unused]] auto& [above, height_m] = placing;
@@ -205,6 +205,7 @@ TEST_F(ResultKey, HasNothingThatChangesNoValue) {
         Change{"--city", [](SvfOptions& o) { o.city_file = "b.gml"; }},
         Change{"--matrix", [](SvfOptions& o) { o.matrix_file = "b.npz"; }},
         Change{"--matrix-threshold", [](SvfOptions& o) { o.matrix.threshold = 0.5; }},
+        Change{"--energyplus", [](SvfOptions& o) { o.energyplus_file = "b.idf"; }},
         Change{"--dry-run", [](SvfOptions& o) { o.evaluation.dry_run = true; }},
         Change{"--resume", [](SvfOptions& o) { o.resume = true; }},
         Change{"--shard",
