@@ -12,7 +12,11 @@ namespace farlod {
 
 namespace {
 
-float weight_of(const CellReceivers& cell, std::size_t n) { return cell.areas_m2.empty() ? 1.0F : cell.areas_m2[n]; }
+/// Slivers of no area weigh a square millimetre: a mean of nothing else is one, too.
+constexpr float least_area_m2 = 1e-6F;
+float weight_of(const CellReceivers& cell, std::size_t n) {
+  return cell.areas_m2.empty() ? 1.0F : std::max(cell.areas_m2[n], least_area_m2);
+}
 
 }  // namespace
 
@@ -27,9 +31,8 @@ void SvfDistribution::add(std::span<const float> values) {
 
 void SvfDistribution::add(std::span<const float> values, std::span<const float> areas_m2) {
   if (areas_m2.empty()) return add(values);
-  constexpr double parts_of_m2 = 1e6;
   for (std::size_t n = 0; n < values.size(); ++n)
-    count_of(values[n]) += static_cast<std::uint64_t>(std::max(1.0, double{areas_m2[n]} * parts_of_m2));
+    count_of(values[n]) += static_cast<std::uint64_t>(std::max(1.0F, areas_m2[n] / least_area_m2));
 }
 
 double SvfDistribution::median() const {
