@@ -185,16 +185,23 @@ std::optional<OffsetOfFile> offset_of(const FileStanding& file) {
 
 std::string metres(double length_m) { return fmt::format("{:.1f}", length_m); }
 
-std::string detail_of(const OffsetOfFile& offset, std::size_t all, bool is_raster) {
+/// The option counts from the raster, and not from the ground that it raised already.
+std::string advice_for(double above_ground_m, const SurveyedGround& ground) {
+  if (!ground.is_raster) return "Bring the relief and the buildings of the file to one datum";
+  const double tenth_m = std::round(10.0 * (ground.offset_m + above_ground_m)) / 10.0;
+  return "--terrain-offset " + metres(tenth_m == 0.0 ? 0.0 : tenth_m) +  // and not -0.0
+         (ground.offset_m == 0.0 ? "" : " instead of " + fmt::format("{}", ground.offset_m)) + " would " +
+         (above_ground_m > 0.0 ? "raise" : "lower") + " the terrain to them";
+}
+
+std::string detail_of(const OffsetOfFile& offset, std::size_t all, const SurveyedGround& ground) {
   const double middle_m = 0.5 * (offset.least_m + offset.most_m);
-  const bool above = middle_m > 0.0;
   const double near_m = std::min(std::abs(offset.least_m), std::abs(offset.most_m));
   const double far_m = std::max(std::abs(offset.least_m), std::abs(offset.most_m));
   const std::string height = far_m - near_m < 1.0 ? metres(std::abs(middle_m)) : metres(near_m) + " to " + metres(far_m);
   return std::to_string(offset.buildings) + " of " + std::to_string(all) + " buildings stand " + height + " m " +
-         (above ? "above" : "below") + " the ground, all alike: are both heights above the same datum? " +
-         (is_raster ? "--terrain-offset " + metres(middle_m) + " would " + (above ? "raise" : "lower") + " the terrain to them"
-                    : "Bring the relief and the buildings of the file to one datum");
+         (middle_m > 0.0 ? "above" : "below") + " the ground, all alike: are both heights above the same datum? " +
+         advice_for(middle_m, ground);
 }
 
 std::string detail_of(const FileStanding& file, bool is_raster) {
@@ -237,7 +244,7 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
     if (files[n].beyond > 0) tell(ProblemCode::beyond_terrain, n, detail_of(files[n], ground.is_raster), *files[n].first_beyond);
     const auto offset = offset_of(files[n]);
     if (!offset) continue;
-    const std::string detail = detail_of(*offset, files[n].buildings, ground.is_raster);
+    const std::string detail = detail_of(*offset, files[n].buildings, ground);
     tell(ProblemCode::another_datum, n, detail, offset->place);
     impossible += offset->impossible;
     if (2 * impossible > all) throw InputError((n < located.sources.size() ? located.sources[n] + ": " : "") + detail + ".");

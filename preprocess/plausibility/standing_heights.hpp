@@ -21,6 +21,7 @@ struct SurveyedGround {
   KnownGroundHeightAt height_at;
   Box2d extent_city;       ///< of its points
   bool is_raster = false;  ///< and no relief of a city file
+  double offset_m = 0.0;   ///< by which the user raised it already
 };
 
 /// The nodes of a terrain that have a height, and the points of a relief.
