@@ -67,6 +67,16 @@ TEST_F(DoubtfulTerrain, AnOffsetIsProposedInPlaceOfTheGivenOne) {
   EXPECT_THAT(outcome.out, HasSubstr("--terrain-offset 2.9 instead of -5 would raise the terrain to them"));
 }
 
+TEST_F(DoubtfulTerrain, ASurfaceModelIsNoCanopy) {
+  const auto low = [](double (*height_m)(Point2d)) { return [=](Point2d p) { return height_m(p) - 420.0; }; };
+  folder.write("ground.asc", ascii_grid(low(climbing_m), 2.0, 300.0));
+  folder.write("surface.asc", ascii_grid(low(climbing_surface_m), 2.0, 300.0));
+  const Outcome outcome = folder.run("farlod-pack town.geojson -o a.farlod --terrain ground.asc --canopy surface.asc");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Doubtful (212 another_datum): surface.asc: "));
+  EXPECT_THAT(outcome.out, HasSubstr("are they elevations (--canopy-absolute), or is it a surface model"));
+}
+
 TEST_F(DoubtfulTerrain, APictureIsNone) {
   std::string picture = "P6 20 20 255\n";
   for (int n = 0; n < 20 * 20 * 3; ++n) picture.push_back(static_cast<char>(n % 100));
