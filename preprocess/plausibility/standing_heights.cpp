@@ -31,6 +31,9 @@ constexpr double impossible_above_m = 10.0;
 constexpr std::size_t enough_buildings = 8;
 /// The shares of buildings that stand on the ground as they are, at the most, and with the offset, at the least.
 constexpr double most_on_ground = 0.2, least_on_ground_with_offset = 0.75;
+/// A building that hangs above all ground below it, and how many of them are told: more than are on stilts or on bridges.
+constexpr double least_hanging_m = 2.0, least_hanging_share = 0.2;
+constexpr std::size_t fewest_hanging = 4;
 /// A file may have several towns, and a terrain several sheets.
 constexpr double square_m = 2000.0;
 /// So many buildings of a square are compared with the ground, each at so many of its points.
@@ -40,6 +43,9 @@ constexpr std::size_t most_buildings = 256, most_points = 16;
 struct Standing {
   double low_m = 0.0, high_m = 0.0;
   bool is_buried = false;  ///< its roof is below the ground, too
+
+  /// From the highest ground below it to its base.
+  [[nodiscard]] double gap_m() const { return low_m + tolerance_m; }
 };
 
 std::optional<Standing> standing_of(std::span<const Point3d> points, const KnownGroundHeightAt& ground_height) {
@@ -129,12 +135,35 @@ struct Group {
   }
 };
 
+/// Buildings that hang above the ground, each by itself.
+struct HangingBuildings {
+  std::size_t compared = 0, count = 0;
+  double most_m = 0.0;
+  std::string first_id;
+  Point3d place;  ///< of the first one
+
+  void add(const Standing& standing, const std::string& id, const Point3d& p) {
+    ++compared;
+    if (standing.gap_m() < least_hanging_m) return;
+    if (count++ == 0) {
+      first_id = id;
+      place = p;
+    }
+    most_m = std::max(most_m, standing.gap_m());
+  }
+  [[nodiscard]] bool are_told() const {
+    return compared >= enough_buildings && count >= fewest_hanging &&
+           static_cast<double>(count) >= least_hanging_share * static_cast<double>(compared);
+  }
+};
+
 /// All that is to be said of a file.
 struct FileStanding {
   std::map<std::pair<std::int64_t, std::int64_t>, Group> squares;
   std::size_t buildings = 0, beyond = 0;
   std::optional<Point3d> first_beyond;
   std::string first_id;  ///< of those beyond
+  HangingBuildings hanging;
 
   void add(const std::string& id, std::span<const Point3d> points, const SurveyedGround& ground) {
     Box2d box;
@@ -149,10 +178,22 @@ struct FileStanding {
       return;
     }
     const auto number = [](double m) { return static_cast<std::int64_t>(std::floor(m / square_m)); };
-    if (const auto standing = standing_of(points, ground.height_at))
-      squares[{number(middle.x), number(middle.y)}].add(*standing, points.front());
+    const auto standing = standing_of(points, ground.height_at);
+    if (!standing) return;
+    squares[{number(middle.x), number(middle.y)}].add(*standing, points.front());
+    hanging.add(*standing, id, points.front());
   }
 };
+
+std::vector<FileStanding> standing_of_files(const LocatedCity& located, const SurveyedGround& ground) {
+  std::vector<FileStanding> files(std::max<std::size_t>(located.sources.size(), 1));
+  const CityModel& city = located.city;
+  city.for_each_building([&](std::size_t, const Building& b) {
+    if (b.height_reference != HeightReference::elevation || b.foot == Foot::above_ground || city.points_of(b).empty()) return;
+    files[b.source].add(b.id, city.points_of(b), ground);
+  });
+  return files;
+}
 
 /// Buildings of a file that have one offset, or those of several squares that have one each.
 struct OffsetOfFile {
@@ -204,6 +245,13 @@ std::string detail_of(const OffsetOfFile& offset, std::size_t all, const Surveye
          advice_for(middle_m, ground);
 }
 
+std::string detail_of(const HangingBuildings& hanging, std::size_t all, bool is_raster) {
+  return std::to_string(hanging.count) + " of " + std::to_string(all) + " buildings hang " +
+         fmt::format("{:g}", least_hanging_m) + " m or more above the " + (is_raster ? "terrain" : "relief") + ", up to " +
+         metres(hanging.most_m) + " m, and not all alike, the first of them " + hanging.first_id +
+         ": the sky is seen below them; is the terrain of another time or too coarse, or does the model begin at a storey?";
+}
+
 std::string detail_of(const FileStanding& file, bool is_raster) {
   const std::string survey = is_raster ? "terrain" : "relief";
   return std::to_string(file.beyond) + " of " + std::to_string(file.buildings) + " buildings lie beyond the " + survey +
@@ -227,14 +275,9 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   require_ground_without_roofs(located, ground);
   require_heights_above_ground(located, ground.height_at);
   report_roofs(located, ground, report);
-  std::vector<FileStanding> files(std::max<std::size_t>(located.sources.size(), 1));
+  const std::vector<FileStanding> files = standing_of_files(located, ground);
   std::size_t all = 0, impossible = 0;
-  const CityModel& city = located.city;
-  city.for_each_building([&](std::size_t, const Building& b) {
-    if (b.height_reference != HeightReference::elevation || b.foot == Foot::above_ground || city.points_of(b).empty()) return;
-    files[b.source].add(b.id, city.points_of(b), ground);
-    ++all;
-  });
+  for (const FileStanding& file : files) all += file.buildings;
   const Point2d origin_m = located.georeference.origin_m;
   const auto tell = [&](ProblemCode code, std::size_t n, std::string detail, const Point3d& p_city) {
     const std::string source = n < located.sources.size() ? located.sources[n] : "";
@@ -243,6 +286,9 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   for (std::size_t n = 0; n < files.size(); ++n) {
     if (files[n].beyond > 0) tell(ProblemCode::beyond_terrain, n, detail_of(files[n], ground.is_raster), *files[n].first_beyond);
     const auto offset = offset_of(files[n]);
+    const HangingBuildings& hanging = files[n].hanging;
+    if (!offset && hanging.are_told())
+      tell(ProblemCode::another_datum, n, detail_of(hanging, files[n].buildings, ground.is_raster), hanging.place);
     if (!offset) continue;
     const std::string detail = detail_of(*offset, files[n].buildings, ground);
     tell(ProblemCode::another_datum, n, detail, offset->place);
