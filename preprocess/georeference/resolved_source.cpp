@@ -3,7 +3,6 @@
 #include "georeference/resolved_source.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
+#include "georeference/doubtful_place.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -64,26 +64,6 @@ void ProblemLocator::locate(Problem& problem) {
 }
 
 namespace {
-
-/// Areas of use are bounding boxes of countries and zones. Towns at a border extend beyond them.
-constexpr double least_margin_deg = 1.0;
-
-/// Whether a place lies in the area of use of a CRS. If the area of a CRS in degrees is not known: whether it lies on the Earth.
-bool lies_in_area_of_use(const Crs& crs, Point2d p) {
-  const auto place = crs.lon_lat_deg(p);
-  const auto area = crs.area_of_use();
-  return place && (area ? area->contains(*place) : !crs.is_projected());
-}
-
-/// Whether the CRS may be used at a place: the area of use is not known, or is at most 1° away. If the CRS has zones, it may be
-/// one zone away, since some surveys use one zone for a whole country.
-bool may_be_used_at(const Crs& crs, Point2d p) {
-  const auto area = crs.area_of_use();
-  if (!area && crs.is_projected()) return true;
-  const auto place = crs.lon_lat_deg(p);
-  const double lon_margin_deg = std::max(least_margin_deg, crs.zone_width_deg());
-  return place && (!area || area->contains(*place, lon_margin_deg, least_margin_deg));
-}
 
 /// Tells metres and feet from degrees: most facets, and the distances between points of a relief, are larger than 5 cm and
 /// smaller than 0.05° (5 km).
@@ -206,73 +186,6 @@ void check_units(const std::string& source, const TypicalPlace& typical, const C
 
 constexpr const char* how_to_name_crs = "name the CRS that they are in, in the file or with --crs EPSG:n";
 
-/// The model of a site has its own origin, and no coordinate as large as this.
-constexpr double largest_site_m = 20'000.0;
-/// The sizes between which most buildings are. The largest ones are factories and airports.
-constexpr double largest_building_m = 2'000.0, smallest_building_m = 1.0;
-
-/// A unit, and its name in the plural.
-using CountedUnit = std::pair<LengthUnit, const char*>;
-
-const std::array<CountedUnit, 6>& units_of_files() {
-  static const std::array<CountedUnit, 6> units{{{us_survey_foot, "US survey feet"},
-                                                 {foot, "feet"},
-                                                 {metre, "metres"},
-                                                 {{"kilometre", 1e3, "9036", " (km)"}, "kilometres"},
-                                                 {{"millimetre", 1e-3, "1025", " (mm)"}, "millimetres"},
-                                                 {{"centimetre", 1e-2, "1033", " (cm)"}, "centimetres"}}};
-  return units;
-}
-
-bool is_of_a_site(const Crs& crs, Point2d p_map) {
-  return crs.is_projected() && crs.area_of_use() &&
-         std::max(std::abs(p_map.x), std::abs(p_map.y)) * crs.unit() < largest_site_m && !lies_in_area_of_use(crs, p_map);
-}
-
-/// Whether the place and the buildings of the file would be plausible if it counted in this unit.
-bool would_fit(const LengthUnit& unit, const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
-  constexpr double like_the_same = 1e-3;  // the two kinds of feet differ by less
-  const double factor = unit.metres / crs.unit();
-  if (std::abs(factor - 1.0) < like_the_same) return false;
-  const double building_m = building_extent.value_or(smallest_building_m / unit.metres) * unit.metres;
-  return smallest_building_m <= building_m && building_m <= largest_building_m && lies_in_area_of_use(crs, factor * p_map);
-}
-
-/// A unit that would make the place plausible, preferably one for which the register has the CRS in that unit.
-std::optional<std::string> unit_that_fits(const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
-  std::optional<std::string> without_twin;
-  for (const auto& [unit, many] : units_of_files()) {
-    if (!would_fit(unit, crs, p_map, building_extent)) continue;
-    const std::string counted = std::string("counted in ") + many + " it would lie within";
-    if (const auto twin = crs.counted_in(unit).epsg()) return counted + ": was --crs EPSG:" + std::to_string(*twin) + " meant?";
-    if (!without_twin) without_twin = counted;
-  }
-  return without_twin;
-}
-
-std::string explanation(const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
-  if (crs.is_projected())
-    if (auto unit = unit_that_fits(crs, p_map, building_extent)) return *unit;
-  if (is_of_a_site(crs, p_map)) return "it looks like a model of a site: give it its place (--origin X,Y of a mesh)";
-  return "is it the right CRS? --crs EPSG:n names another";
-}
-
-/// A text that the file does not lie in the area of use of its CRS, or that its buildings are too large, with a possible reason:
-/// another unit, or a model of a site without a place on the map. Empty when the place is plausible. `p_map`: the typical place,
-/// easting or longitude first.
-std::optional<std::string> doubt_about_place(const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
-  const double building_m = crs.is_projected() ? building_extent.value_or(0.0) * crs.unit() : 0.0;
-  const bool elsewhere = !may_be_used_at(crs, p_map) || is_of_a_site(crs, p_map);
-  if (!elsewhere && building_m <= largest_building_m) return std::nullopt;
-  std::ostringstream text;
-  text.precision(10);
-  text << "the file lies at " << p_map.x << ", " << p_map.y;
-  if (elsewhere) text << ", where " << crs.name() << " is not meant to be used";
-  if (building_m > largest_building_m) text << ", and its buildings are " << std::round(building_m) << " m wide";
-  text << ": " << explanation(crs, p_map, building_extent);
-  return text.str();
-}
-
 /// Reports problems of a whole file.
 class FileReport {
  public:
@@ -335,6 +248,17 @@ InputCrs resolved_crs(const InputCrs& input, const TypicalPlace& typical) {
   return {input.own->named, input.problem, input.own->detail};
 }
 
+/// By the place alone, else by that in the CRS of the file that --crs overruled.
+std::optional<std::string> doubt_about(const InputCrs& input, Point2d place, const TypicalPlace& typical,
+                                       const SourceCity& source) {
+  const Crs& crs = input.named.crs;
+  if (auto doubt = doubt_about_place(crs, place, typical.building_extent)) return doubt;
+  if (!input.own) return std::nullopt;
+  const NamedCrs& own = input.own->named;
+  const FileAxes axes = find_axes(horizontal(typical.place), own.crs, source.crs.longitude_first || own.longitude_first);
+  return doubt_beside_own(crs, place, own.crs, horizontal(axes.p_map(typical.place)));
+}
+
 }  // namespace
 
 ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report) {
@@ -350,7 +274,7 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   if (is_swapped(axes, crs, longitude_first)) of_file.add(ProblemCode::axes_swapped, detail_of_swap(axes, crs, typical.place));
   if (axes.before_easting != 0.0) of_file.add(ProblemCode::zone_in_easting, detail_of_zone(axes, crs, typical.place));
   const Point2d place = horizontal(axes.p_map(typical.place));
-  if (const auto doubt = doubt_about_place(crs, place, typical.building_extent)) of_file.add(ProblemCode::unlikely_place, *doubt);
+  if (const auto doubt = doubt_about(input, place, typical, source)) of_file.add(ProblemCode::unlikely_place, *doubt);
   if (axes != FileAxes{}) normalize_points(source, axes);
   return {std::move(source), crs, place, axes};
 }

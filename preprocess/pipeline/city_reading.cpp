@@ -233,6 +233,7 @@ class CityReading {
                        " has no heights where the city lies: give a terrain that covers it.");
     for (auto& height_m : terrain.height_m)
       if (height_m) *height_m += static_cast<float>(settings_.terrain_offset_m);
+    terrain.offset_m = settings_.terrain_offset_m;
     return terrain;
   }
 

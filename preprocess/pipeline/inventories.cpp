@@ -16,6 +16,7 @@
 #include "georeference/raster_reader.hpp"
 #include "ingest/trees/tree_reader.hpp"
 #include "package/crowns_of_city.hpp"
+#include "plausibility/crowns_everywhere.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -133,6 +134,7 @@ ReadTrees bring_to_city(std::vector<SourceTrees> inventories, const StageSetting
   require_trees_in_city(given, read.trees.trees, grid);
   if (const auto files = canopy_files(settings)) {
     auto [canopy, notes] = georeference::read_canopy(*files, fallback_crs, georeference, outline_city(grid), stop);
+    if (settings.trees.heights == CanopyHeights::above_ground) plausibility::report_crowns_everywhere(canopy, grid, report);
     read.trees.canopy = std::move(canopy);
     read.notes.insert(read.notes.end(), notes.begin(), notes.end());
   }

@@ -31,6 +31,9 @@ constexpr double impossible_above_m = 10.0;
 constexpr std::size_t enough_buildings = 8;
 /// The shares of buildings that stand on the ground as they are, at the most, and with the offset, at the least.
 constexpr double most_on_ground = 0.2, least_on_ground_with_offset = 0.75;
+/// A building that hangs above all ground below it, and how many of them are told: more than are on stilts or on bridges.
+constexpr double least_hanging_m = 2.0, least_hanging_share = 0.2;
+constexpr std::size_t fewest_hanging = 4;
 /// A file may have several towns, and a terrain several sheets.
 constexpr double square_m = 2000.0;
 /// So many buildings of a square are compared with the ground, each at so many of its points.
@@ -40,6 +43,9 @@ constexpr std::size_t most_buildings = 256, most_points = 16;
 struct Standing {
   double low_m = 0.0, high_m = 0.0;
   bool is_buried = false;  ///< its roof is below the ground, too
+
+  /// From the highest ground below it to its base.
+  [[nodiscard]] double gap_m() const { return low_m + tolerance_m; }
 };
 
 std::optional<Standing> standing_of(std::span<const Point3d> points, const KnownGroundHeightAt& ground_height) {
@@ -129,12 +135,35 @@ struct Group {
   }
 };
 
+/// Buildings that hang above the ground, each by itself.
+struct HangingBuildings {
+  std::size_t compared = 0, count = 0;
+  double most_m = 0.0;
+  std::string first_id;
+  Point3d place;  ///< of the first one
+
+  void add(const Standing& standing, const std::string& id, const Point3d& p) {
+    ++compared;
+    if (standing.gap_m() < least_hanging_m) return;
+    if (count++ == 0) {
+      first_id = id;
+      place = p;
+    }
+    most_m = std::max(most_m, standing.gap_m());
+  }
+  [[nodiscard]] bool are_told() const {
+    return compared >= enough_buildings && count >= fewest_hanging &&
+           static_cast<double>(count) >= least_hanging_share * static_cast<double>(compared);
+  }
+};
+
 /// All that is to be said of a file.
 struct FileStanding {
   std::map<std::pair<std::int64_t, std::int64_t>, Group> squares;
   std::size_t buildings = 0, beyond = 0;
   std::optional<Point3d> first_beyond;
   std::string first_id;  ///< of those beyond
+  HangingBuildings hanging;
 
   void add(const std::string& id, std::span<const Point3d> points, const SurveyedGround& ground) {
     Box2d box;
@@ -149,10 +178,22 @@ struct FileStanding {
       return;
     }
     const auto number = [](double m) { return static_cast<std::int64_t>(std::floor(m / square_m)); };
-    if (const auto standing = standing_of(points, ground.height_at))
-      squares[{number(middle.x), number(middle.y)}].add(*standing, points.front());
+    const auto standing = standing_of(points, ground.height_at);
+    if (!standing) return;
+    squares[{number(middle.x), number(middle.y)}].add(*standing, points.front());
+    hanging.add(*standing, id, points.front());
   }
 };
+
+std::vector<FileStanding> standing_of_files(const LocatedCity& located, const SurveyedGround& ground) {
+  std::vector<FileStanding> files(std::max<std::size_t>(located.sources.size(), 1));
+  const CityModel& city = located.city;
+  city.for_each_building([&](std::size_t, const Building& b) {
+    if (b.height_reference != HeightReference::elevation || b.foot == Foot::above_ground || city.points_of(b).empty()) return;
+    files[b.source].add(b.id, city.points_of(b), ground);
+  });
+  return files;
+}
 
 /// Buildings of a file that have one offset, or those of several squares that have one each.
 struct OffsetOfFile {
@@ -185,16 +226,30 @@ std::optional<OffsetOfFile> offset_of(const FileStanding& file) {
 
 std::string metres(double length_m) { return fmt::format("{:.1f}", length_m); }
 
-std::string detail_of(const OffsetOfFile& offset, std::size_t all, bool is_raster) {
+/// The option counts from the raster, and not from the ground that it raised already.
+std::string advice_for(double above_ground_m, const SurveyedGround& ground) {
+  if (!ground.is_raster) return "Bring the relief and the buildings of the file to one datum";
+  const double tenth_m = std::round(10.0 * (ground.offset_m + above_ground_m)) / 10.0;
+  return "--terrain-offset " + metres(tenth_m == 0.0 ? 0.0 : tenth_m) +  // and not -0.0
+         (ground.offset_m == 0.0 ? "" : " instead of " + fmt::format("{}", ground.offset_m)) + " would " +
+         (above_ground_m > 0.0 ? "raise" : "lower") + " the terrain to them";
+}
+
+std::string detail_of(const OffsetOfFile& offset, std::size_t all, const SurveyedGround& ground) {
   const double middle_m = 0.5 * (offset.least_m + offset.most_m);
-  const bool above = middle_m > 0.0;
   const double near_m = std::min(std::abs(offset.least_m), std::abs(offset.most_m));
   const double far_m = std::max(std::abs(offset.least_m), std::abs(offset.most_m));
   const std::string height = far_m - near_m < 1.0 ? metres(std::abs(middle_m)) : metres(near_m) + " to " + metres(far_m);
   return std::to_string(offset.buildings) + " of " + std::to_string(all) + " buildings stand " + height + " m " +
-         (above ? "above" : "below") + " the ground, all alike: are both heights above the same datum? " +
-         (is_raster ? "--terrain-offset " + metres(middle_m) + " would " + (above ? "raise" : "lower") + " the terrain to them"
-                    : "Bring the relief and the buildings of the file to one datum");
+         (middle_m > 0.0 ? "above" : "below") + " the ground, all alike: are both heights above the same datum? " +
+         advice_for(middle_m, ground);
+}
+
+std::string detail_of(const HangingBuildings& hanging, std::size_t all, bool is_raster) {
+  return std::to_string(hanging.count) + " of " + std::to_string(all) + " buildings hang " +
+         fmt::format("{:g}", least_hanging_m) + " m or more above the " + (is_raster ? "terrain" : "relief") + ", up to " +
+         metres(hanging.most_m) + " m, and not all alike, the first of them " + hanging.first_id +
+         ": the sky is seen below them; is the terrain of another time or too coarse, or does the model begin at a storey?";
 }
 
 std::string detail_of(const FileStanding& file, bool is_raster) {
@@ -220,14 +275,9 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   require_ground_without_roofs(located, ground);
   require_heights_above_ground(located, ground.height_at);
   report_roofs(located, ground, report);
-  std::vector<FileStanding> files(std::max<std::size_t>(located.sources.size(), 1));
+  const std::vector<FileStanding> files = standing_of_files(located, ground);
   std::size_t all = 0, impossible = 0;
-  const CityModel& city = located.city;
-  city.for_each_building([&](std::size_t, const Building& b) {
-    if (b.height_reference != HeightReference::elevation || b.foot == Foot::above_ground || city.points_of(b).empty()) return;
-    files[b.source].add(b.id, city.points_of(b), ground);
-    ++all;
-  });
+  for (const FileStanding& file : files) all += file.buildings;
   const Point2d origin_m = located.georeference.origin_m;
   const auto tell = [&](ProblemCode code, std::size_t n, std::string detail, const Point3d& p_city) {
     const std::string source = n < located.sources.size() ? located.sources[n] : "";
@@ -236,8 +286,11 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   for (std::size_t n = 0; n < files.size(); ++n) {
     if (files[n].beyond > 0) tell(ProblemCode::beyond_terrain, n, detail_of(files[n], ground.is_raster), *files[n].first_beyond);
     const auto offset = offset_of(files[n]);
+    const HangingBuildings& hanging = files[n].hanging;
+    if (!offset && hanging.are_told())
+      tell(ProblemCode::another_datum, n, detail_of(hanging, files[n].buildings, ground.is_raster), hanging.place);
     if (!offset) continue;
-    const std::string detail = detail_of(*offset, files[n].buildings, ground.is_raster);
+    const std::string detail = detail_of(*offset, files[n].buildings, ground);
     tell(ProblemCode::another_datum, n, detail, offset->place);
     impossible += offset->impossible;
     if (2 * impossible > all) throw InputError((n < located.sources.size() ? located.sources[n] + ": " : "") + detail + ".");

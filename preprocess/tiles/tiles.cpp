@@ -381,8 +381,10 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
     return surveyed ? std::optional(surveyed->height_at(grid.rotation.grid_from_city(p_city))) : std::nullopt;
   };
   if (surveyed)
-    plausibility::report_standing(
-        located, {ground_height, plausibility::extent_of_survey(terrain, located.relief_points), terrain.has_value()}, report);
+    plausibility::report_standing(located,
+                                  {ground_height, plausibility::extent_of_survey(terrain, located.relief_points),
+                                   terrain.has_value(), terrain ? terrain->offset_m : 0.0},
+                                  report);
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
   city.for_each_building([&](std::size_t, const Building& b) {

@@ -57,6 +57,26 @@ TEST_F(DoubtfulTerrain, OneTileOfAnotherDatumIsToldOrRefused) {
                         "below that"));
 }
 
+TEST_F(DoubtfulTerrain, AnOffsetIsProposedInPlaceOfTheGivenOne) {
+  // Floors at 102 m
+  folder.write("plain.asc", "ncols 2\nnrows 2\nxllcorner 549000\nyllcorner 5499000\ncellsize 1000\n99.1 99.1\n99.1 99.1\n");
+  const std::string houses = "'" FARLOD_SOURCE_DIR "/datasets/broken/212_another_datum.city.json'";
+  const Outcome outcome = folder.run("farlod-pack " + houses + " -o a.farlod --terrain plain.asc --terrain-offset -5");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("9 of 9 buildings stand 7.9 m above the ground"));
+  EXPECT_THAT(outcome.out, HasSubstr("--terrain-offset 2.9 instead of -5 would raise the terrain to them"));
+}
+
+TEST_F(DoubtfulTerrain, ASurfaceModelIsNoCanopy) {
+  const auto low = [](double (*height_m)(Point2d)) { return [=](Point2d p) { return height_m(p) - 420.0; }; };
+  folder.write("ground.asc", ascii_grid(low(climbing_m), 2.0, 300.0));
+  folder.write("surface.asc", ascii_grid(low(climbing_surface_m), 2.0, 300.0));
+  const Outcome outcome = folder.run("farlod-pack town.geojson -o a.farlod --terrain ground.asc --canopy surface.asc");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Doubtful (212 another_datum): surface.asc: "));
+  EXPECT_THAT(outcome.out, HasSubstr("are they elevations (--canopy-absolute), or is it a surface model"));
+}
+
 TEST_F(DoubtfulTerrain, APictureIsNone) {
   std::string picture = "P6 20 20 255\n";
   for (int n = 0; n < 20 * 20 * 3; ++n) picture.push_back(static_cast<char>(n % 100));

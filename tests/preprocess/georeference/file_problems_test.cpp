@@ -173,6 +173,28 @@ TEST(UnlikelyPlace, LeavesPlacesJustBeyondAnAreaAlone) {
   EXPECT_THAT(run("EPSG:28992", {92461.0, 560000.0, 3.0}, 10.0).codes(), IsEmpty());
 }
 
+TEST(UnlikelyPlace, IsSaidNearACountryThatACrsIsMeantFor) {
+  // Gothenburg in EPSG:3007, taken for the CRS of all of Sweden
+  const Georeferencing at_sea = run("", {150000.0, 6400000.0, 20.0}, 10.0, {"EPSG:3006", ""});
+  EXPECT_THAT(at_sea.codes(), ElementsAre(205));
+  EXPECT_THAT(at_sea.detail(), AllOf(HasSubstr("° N, 9.1"), HasSubstr("SWEREF99 TM (Sweden) is not meant to be used"),
+                                     HasSubstr("--crs EPSG:n names another")));
+  EXPECT_THAT(run("", {150000.0, 6400000.0, 20.0}, 10.0, {"EPSG:3007", ""}).codes(), IsEmpty());
+}
+
+TEST(UnlikelyPlace, IsSaidWhereTheFilesOwnCrsFitsBetterThanTheGivenOne) {
+  const Point3d rotterdam{90000.0, 436000.0, 3.0};
+  const Georeferencing gulf = run("EPSG:28992", rotterdam, 10.0, {"EPSG:32631", ""});
+  EXPECT_THAT(gulf.codes(), ElementsAre(203, 205));
+  EXPECT_THAT(
+      gulf.report.problems().back().detail,
+      AllOf(HasSubstr("° W), where WGS 84 / UTM zone 31N is not meant to be used"),
+            HasSubstr("Amersfoort / RD New (Netherlands), is meant for its place (51.91° N, 4.4"), HasSubstr("--out-crs")));
+  EXPECT_THAT(run("EPSG:28992", rotterdam, 10.0).codes(), IsEmpty());
+  EXPECT_THAT(run("EPSG:25832", {280000.0, 5657000.0, 60.0}, 10.0, {"EPSG:32632", ""}).codes(), ElementsAre(203))
+      << "a little to the west of both areas";
+}
+
 TEST(UnlikelyPlace, IsSaidOfBuildingsThatAreTooLarge) {
   EXPECT_THAT(detail_in_ended_run("EPSG:25832", bonn, 10e3), HasSubstr("10000 m wide"));
   EXPECT_THAT(run("EPSG:25832", bonn, 1.9e3).codes(), ElementsAre(208));

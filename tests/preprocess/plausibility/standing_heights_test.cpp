@@ -49,9 +49,11 @@ LocatedCity located(const scenes::SceneBuilder& scene) {
 }
 
 /// What is told of a city above the ground of a town: the details of its problems.
-std::string told(const LocatedCity& city, const Town& town, double extent_m = 1e5) {
+/// `offset_m`: by which the user raised the ground to where it is.
+std::string told(const LocatedCity& city, const Town& town, double extent_m = 1e5, double offset_m = 0.0) {
   Report report;
-  const SurveyedGround ground{[&](Point2d p) { return town.ground_m(p); }, {{-extent_m, -extent_m}, {extent_m, extent_m}}, true};
+  const Box2d extent{{-extent_m, -extent_m}, {extent_m, extent_m}};
+  const SurveyedGround ground{[&](Point2d p) { return town.ground_m(p); }, extent, true, offset_m};
   report_standing(city, ground, report);
   std::string details;
   for (const Problem& p : report.problems()) details += p.source + ": " + p.detail + "\n";
@@ -97,8 +99,33 @@ TEST_P(OnSlopes, NothingIsToldOfATownThatStandsAsTownsDo) {
   EXPECT_EQ(told_of(town, [&] { return -3.0; }), "") << "a cellar below each";
   EXPECT_EQ(told_of(town, [&] { return 0.6; }), "") << "plinths";
   EXPECT_EQ(told_of(town, [&] { return 0.5 * 12.0 * town.slope; }), "") << "floors at the middle of the slope";
-  EXPECT_EQ(told_of(town, [&] { return percent(30) ? drawn(random, 3.0, 9.0) : 0.0; }), "") << "stilts";
+  EXPECT_EQ(told_of(town, [&] { return percent(10) ? drawn(random, 3.0, 9.0) : 0.0; }), "") << "stilts";
   EXPECT_EQ(told_of(town, [&] { return percent(20) ? drawn(random, -60.0, 60.0) : 0.0; }), "") << "wrong ones among good ones";
+}
+
+TEST(StandingHeights, ProposeAnOffsetInPlaceOfTheOneThatIsGiven) {
+  const Town town;
+  const auto told_with = [&](double lift_m, double offset_m) {
+    scenes::SceneBuilder scene;
+    town.build(scene, [&] { return lift_m; });
+    return told(located(scene), town, 1e5, offset_m);
+  };
+  EXPECT_THAT(told_with(7.9, 0.0), HasSubstr("--terrain-offset 7.9 would raise"));
+  EXPECT_THAT(told_with(7.9, -5.0), HasSubstr("--terrain-offset 2.9 instead of -5 would raise"));
+  EXPECT_THAT(told_with(-7.9, 5.5), HasSubstr("--terrain-offset -2.4 instead of 5.5 would lower"));
+  EXPECT_THAT(told_with(-7.98, 8.0), HasSubstr("--terrain-offset 0.0 instead of 8 would lower"));
+}
+
+TEST(StandingHeights, BuildingsThatHangEachByAnotherHeightAreCounted) {
+  const Town town{0.05};
+  const auto told_where_each = [&](int n_th) {
+    int n = 0;
+    return told_of(town, [&] { return n++ % n_th == 0 ? 3.0 + 0.1 * n : 0.0; });
+  };
+  EXPECT_THAT(told_where_each(2), AllOf(HasSubstr("town.gml: 32 of 64 buildings hang 2 m or more above the terrain, up to 8."),
+                                        HasSubstr(" m, and not all alike, the first of them ")));
+  EXPECT_THAT(told_where_each(4), HasSubstr("16 of 64 buildings hang"));
+  EXPECT_EQ(told_where_each(6), "") << "on stilts, or parts above a passage";
 }
 
 TEST(StandingHeights, OneOfTwoTownsIsTold) {
