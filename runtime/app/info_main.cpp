@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "app/city_scenery.hpp"
@@ -141,16 +142,22 @@ std::string settings_of_table(const InfoOptions& options) {
   return options.sky_spacing_m ? fmt::format("--cells --svf {:g}", *options.sky_spacing_m) : "--cells";
 }
 
-void write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
+/// Returns the number of its rows.
+std::size_t write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
   const PackageDescription& city = facts.description;
   TableFrame frame{.columns = {}, .crs_wkt = city.crs_wkt, .epsg = city.epsg, .convergence = city.convergence};
   frame.columns.further = morphology_columns();
   frame.provenance = {std::string("Far-LoD ") + software_version, facts.package, fmt::format("{:016x}", city.manifest_xxh3),
                       settings_of_table(options)};
   const auto write = output_format_of(options.cells_file)->write_forms;
-  if (options.zones_file.empty()) return write(table_of_cells(morphology_of(package, options)), frame, options.cells_file);
+  if (options.zones_file.empty()) {
+    const std::vector<CellMorphology> cells = morphology_of(package, options);
+    write(table_of_cells(cells), frame, options.cells_file);
+    return cells.size();
+  }
   const RequestedZones zones = zones_in(options, city);
   write(table_of_zones(zones, forms_of(package, zones, options)), frame, options.cells_file);
+  return zones.zones.size();
 }
 
 void require_outputs(const InfoOptions& options) {
@@ -170,13 +177,15 @@ int run(const InfoOptions& options) {
   const PackageFacts facts = facts_of(package, options);
   if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
   if (!options.picture_file.empty()) (options.cell ? draw_neighborhood : draw_city_of)(package, facts, options);
-  if (!options.cells_file.empty()) write_table_of_cells(package, facts, options);
+  std::string of_table;
+  if (!options.cells_file.empty())
+    of_table = fmt::format("{}: {} rows\n", options.cells_file.string(), write_table_of_cells(package, facts, options));
   const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
   write_text(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
   if (options.json)
     fmt::print("{}", facts_json(facts));
   else if (options.run.verbosity == Verbosity::normal)
-    fmt::print("{}", facts_text(facts));
+    fmt::print("{}{}", facts_text(facts), of_table);
   if (!facts.check || facts.check->damage.empty()) return exit_done;
   std::fflush(stdout);
   for (const PackageDamage& damage : facts.check->damage) fmt::print(stderr, "farlod-info: {}\n", damage_text(damage));

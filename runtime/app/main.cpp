@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/asked_of_city.hpp"
 #include "app/files_of_run.hpp"
 #include "app/light_of_package.hpp"
 #include "app/quantity_options.hpp"
@@ -269,6 +270,8 @@ WrittenRun evaluate(SvfOptions options) {
   const auto start = Clock::now();
   const Package package(options.package);
   const double open_s = seconds_since(start);
+  require_buildings_for(options, package);
+  const std::optional<std::string> note_of_box = take_degrees_of_bbox(options, package.description());
   options.evaluation.region = region_of_package(options, package.description());
   const std::optional<PeriodLight> light = place_light(package, options);
   add_quantities_for(inventory_of(package).crowns.all() > 0, options);
@@ -280,6 +283,7 @@ WrittenRun evaluate(SvfOptions options) {
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
   add_light(light, written);
+  if (note_of_box) written.notes.insert(written.notes.begin(), *note_of_box);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   add_notes_of_package(package, options, written);
   if (options.shard) kept.finish();

@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/region_of_package.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
 #endif
@@ -20,7 +26,57 @@ Region region_in(const std::filesystem::path& file, const PackageDescription& pa
 #endif
 }
 
+/// Nobody asks a city for boxes that are farther away.
+constexpr double farthest_box_m = 100e3;
+
+bool is_near_city(const Box2d& box, const PackageDescription& package) {
+  const Box2d around = grown(package.outline_projected, farthest_box_m);
+  return box.low.x <= around.high.x && around.low.x <= box.high.x && box.low.y <= around.high.y && around.low.y <= box.high.y;
+}
+
+bool may_be_degrees(const Box2d& box) {
+  const auto is_on_globe = [](Point2d p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; };
+  return is_on_globe(box.low) && is_on_globe(box.high);
+}
+
+/// The box around what longitudes and latitudes enclose, if it is one in the CRS of the package; its sides are curved there.
+std::optional<Box2d> projected_from_degrees(const Box2d& degrees, const PackageDescription& package) {
+  Box2d box;
+#ifdef FARLOD_WITH_GDAL
+  constexpr int steps = 16;
+  const Point2d size = degrees.high - degrees.low;
+  std::vector<Point2d> sides;
+  for (int n = 0; n <= steps; ++n) {
+    const double x = degrees.low.x + size.x * n / steps, y = degrees.low.y + size.y * n / steps;
+    for (const Point2d p : {Point2d{x, degrees.low.y}, {x, degrees.high.y}, {degrees.low.x, y}, {degrees.high.x, y}})
+      sides.push_back(p);
+  }
+  for (const Point2d p : gdal_files().reprojected_each(sides, "OGC:CRS84", package.crs_wkt)) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) return std::nullopt;
+    box.add(p);
+  }
+#endif
+  const bool is_near = !box.empty() && is_near_city(box, package);
+  return is_near ? std::optional(box) : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<std::string> take_degrees_of_bbox(SvfOptions& options, const PackageDescription& package) {
+  if (!options.bbox_projected || !may_be_degrees(*options.bbox_projected) || is_near_city(*options.bbox_projected, package))
+    return std::nullopt;
+  const auto [low, high] = *options.bbox_projected;
+  const std::string given = fmt::format("{:.10g}, {:.10g}, {:.10g}, {:.10g}", low.x, low.y, high.x, high.y);
+  if (const std::optional<Box2d> box = projected_from_degrees({low, high}, package)) {
+    options.bbox_projected = box;
+    return fmt::format("--bbox {} was taken for longitude and latitude (WGS 84): {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}.", given,
+                       box->low.x, box->low.y, box->high.x, box->high.y, package.crs_name);
+  }
+  const Box2d exchanged{{low.y, low.x}, {high.y, high.x}};
+  if (may_be_degrees(exchanged) && projected_from_degrees(exchanged, package))
+    throw PointsError("--bbox " + given + " lies more than 100 km from the city: give the longitude before the latitude.");
+  return std::nullopt;
+}
 
 std::shared_ptr<const Region> region_of_package(const SvfOptions& options, const PackageDescription& package) {
   if (!options.mask_file.empty()) return std::make_shared<const Region>(region_in(options.mask_file, package));

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "app/svf_options.hpp"
 #include "farlod/package.hpp"
@@ -13,5 +15,9 @@ namespace farlod {
 /// The region that --mask or --bbox leaves of a package; null where all of it is asked for, and where --bbox is the extent of a
 /// raster. Throws PointsError where a mask cannot be read.
 [[nodiscard]] std::shared_ptr<const Region> region_of_package(const SvfOptions& options, const PackageDescription& package);
+
+/// Where --bbox lies far from the city, and is near it as longitudes and latitudes (WGS 84): makes it the box around them in the
+/// CRS of the package, and returns what to tell of it. Throws PointsError where the latitudes come first.
+[[nodiscard]] std::optional<std::string> take_degrees_of_bbox(SvfOptions& options, const PackageDescription& package);
 
 }  // namespace farlod

@@ -108,7 +108,8 @@ void add_placing_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->group("Placing");
   app.add_option("--points-layer", o.points_layer, "Layer of --points or --along (default: its only one)")->group("Placing");
   app.add_option("--bbox", raw.bbox,
-                 "X0,Y0,X1,Y1: only receivers in this box, in the package's CRS. Or city: the buildings and up to 50 m around "
+                 "X0,Y0,X1,Y1: only receivers in this box, in the package's CRS or in degrees. Or city: the buildings and up to "
+                 "50 m around "
                  "them, as --grid has it by default; or grid: all cells")
       ->group("Placing");
   app.add_option("--mask", raw.mask, "Only receivers in the polygons of this vector file")

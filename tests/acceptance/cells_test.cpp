@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <cstddef>
 #include <ios>
@@ -98,6 +100,10 @@ TEST_F(ZonesOfTown, HaveTheSumsOfTheCellsAndTheirFields) {
     EXPECT_GT(zones.number(0, column), 0.4 * of_cells) << column;
   }
   EXPECT_EQ(zones.header()[0], "zone");
+  const std::string of_cells = folder.run("farlod-info a.farlod --cells cells.csv").out;
+  EXPECT_THAT(of_cells, testing::EndsWith("\ncells.csv: " + std::to_string(cells.size()) + " rows\n"));
+  EXPECT_THAT(folder.run("farlod-info a.farlod --cells zones.csv --zones zones.geojson").out,
+              testing::EndsWith("\nzones.csv: 2 rows\n"));
   EXPECT_EQ(zones.text(1, "zone"), "2");
   EXPECT_EQ(zones.text(1, "name"), "east");
   EXPECT_EQ(zones.text(1, "lambda_p_input"), "8") << "the file has a field that is called like a column";

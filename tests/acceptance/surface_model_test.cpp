@@ -166,6 +166,16 @@ TEST_F(SurfaceModel, ABoxLeavesThoseOfItsPixelsThatItMeets) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("none.tif")));
 }
 
+/// They said that no pixel lies in the city, and that there is nothing of what was asked for.
+TEST_F(SurfaceModel, SaysThatItKnowsNoBuildings) {
+  pack([](Point2d p) { return norm(p) >= 25.0; });
+  for (const std::string asked :
+       {"-o o.asc --grid 1 --within 3", "-o o.csv --surfaces walls", "-o o.csv --surfaces all --dry-run"})
+    expect_refusal(folder.run("farlod-svf a.farlod " + asked), exit_unusable_input,
+                   {asked.find("within") == std::string::npos ? "--surfaces" : "--within",
+                    "this package is a surface model, which does not tell buildings from ground", "Pack footprints"});
+}
+
 /// A survey of hills as it comes from a scanner, with some huts: no two pixels have the same height.
 double survey_m(Point2d p) {
   const double noise_m = 0.03 * (std::sin(12.9898 * p.x + 78.233 * p.y) + std::sin(93.17 * p.x - 41.3 * p.y));

@@ -101,8 +101,8 @@ std::vector<WrongCommand> inputs_that_are_others() {
 /// Runs that would answer nothing.
 std::vector<WrongCommand> places_of_nothing() {
   return {
-      map_with("--grid 20 --bbox 9,49,10,50", {"No receiver has an answer", "The city lies from", "check --bbox"}),
-      map_with("--grid 20 --bbox 9,49,10,50 --dry-run", {"No receiver has an answer", "check --bbox"}),
+      map_with("--grid 20 --bbox 2000,3000,2100,3100", {"No receiver has an answer", "The city lies from", "check --bbox"}),
+      map_with("--grid 20 --bbox 2000,3000,2100,3100 --dry-run", {"No receiver has an answer", "check --bbox"}),
       map_with("--grid 20 --bbox 5500000,500000,5500100,500100", {"none of", "The city lies from"}),
       table_with("--surfaces roofs --bbox 0,0,1,1", {"The city lies from"}),
       table_with("--at 49.65,9.0", {"49.65, 9 lies more than 100 km from the city", "give the longitude before the latitude"}),

@@ -100,6 +100,40 @@ def test_points_with_a_crs_are_those_of_the_city(village: farlod.City) -> None:
         village.svf(london)
 
 
+def test_degrees_that_are_exchanged_are_shown_as_given(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    here = geopandas.GeoSeries([shapely.geometry.Point((west + east) / 2, (south + north) / 2)], crs=village.crs_wkt)
+    degrees = here.to_crs("EPSG:4326").iloc[0]
+    exchanged = geopandas.GeoSeries([shapely.geometry.Point(degrees.y, degrees.x)], crs="EPSG:4326")
+    with pytest.raises(farlod.InvalidArgument) as raised:
+        village.svf(exchanged)
+    assert f"({degrees.y:.10g}, {degrees.x:.10g}) in WGS 84" in str(raised.value)
+    assert "give the longitude before the latitude" in str(raised.value)
+    london = geopandas.GeoSeries([shapely.geometry.Point(-0.1, 51.5)], crs="EPSG:4326")
+    with pytest.raises(farlod.InvalidArgument, match=r"points begin with \(-0\.1, 51\.5\), and all"):
+        village.svf(london)
+
+
+@pytest.mark.parametrize(
+    ("shape", "found"),
+    [(None, "no geometry"), (shapely.geometry.Point(), "an empty one"), (shapely.geometry.box(0, 0, 1, 1), "a Polygon")],
+)
+def test_first_geometry_that_is_no_point_is_named(village: farlod.City, shape: Any, found: str) -> None:
+    point = shapely.geometry.Point(HERE[0])
+    points = geopandas.GeoSeries([point, shape, point, None], index=["a", "b", "c", "d"], crs=village.crs_wkt)
+    with pytest.raises(farlod.InvalidArgument, match=f"the first of 2 is {found} at index 'b'"):
+        village.svf(points)
+
+
+def test_footprints_without_heights_are_called_the_frame(tmp_path: Path) -> None:
+    blocks = geopandas.GeoDataFrame({"name": ["a"]}, geometry=[shapely.geometry.box(0, 0, 9, 9)], crs="EPSG:32632")
+    with pytest.raises(farlod.Error) as raised:
+        farlod.pack(blocks, tmp_path / "p.farlod", report=False)
+    assert "the GeoDataFrame" in str(raised.value)
+    assert "gpkg" not in str(raised.value)
+    assert "farlod-" not in str(raised.value)
+
+
 def test_second_run_names_the_argument(tmp_path: Path) -> None:
     farlod.pack(SAMPLES / "village.gml", tmp_path / "v.farlod", cell=50.0, report=False).close()
     with pytest.raises(farlod.OutputError) as raised:

@@ -110,9 +110,8 @@ class OpenCity:
 
     def _receivers(self, points: Any, normals: Any) -> Receivers:
         self._open_package()
-        receivers = receivers_of(points, normals, self.crs_wkt, float(self._description["convergence_deg"]))
-        has_crs = receivers.index is not None
-        require_near(receivers.x, receivers.y, self.bounds, self._description["crs_name"], has_crs=has_crs)
+        receivers = receivers_of(points, normals, self.crs_wkt, float(self._description["convergence_deg"]), self.bounds)
+        require_near(receivers.x, receivers.y, self.bounds, self._description["crs_name"], given=receivers.first_given)
         return receivers
 
     def _answers(self, receivers: Receivers, evaluation: Evaluation) -> Mapping[str, Any]:

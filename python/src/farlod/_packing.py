@@ -381,7 +381,7 @@ def pack(
         try:
             facts = module.pack(settings, rows, caller)
         except Error as error:
-            error.args = (in_python(str(error)), *error.args[1:])
+            error.args = (in_python(str(error), folder), *error.args[1:])
             raise
         finally:
             found = [Problem(**row) for row in rows]

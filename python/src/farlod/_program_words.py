@@ -30,9 +30,24 @@ _SAME_NAMES = (
     "surface terrain terrain-offset threads trees up"
 ).split()
 
+#: What a file of this ending holds, where it was written of what a caller gave.
+_GIVEN = {"gpkg": "the GeoDataFrame", "tif": "the DataArray", "obj": "the mesh"}
 
-def in_python(message: str) -> str:
-    """``message`` with the arguments of farlod.pack() in place of the options of farlod-pack."""
+
+def _with_what_was_given(message: str, folder: str) -> str:
+    """``message`` without files of a temporary folder: ``terrain_0.tif`` is the DataArray of terrain."""
+
+    def given(match: re.Match[str]) -> str:
+        number = int(match["number"] or 0)
+        which = "" if match["role"] == "city" and number == 0 else f" of {match['role']}" + (f"[{number}]" if number else "")
+        return _GIVEN[match["ending"]] + which
+
+    file = r"[/\\](?P<role>[a-z_]+?)(?:_(?P<number>\d+))?\.(?P<ending>" + "|".join(_GIVEN) + r")\b"
+    return re.sub(re.escape(folder) + file, given, message)
+
+
+def in_python(message: str, folder: str) -> str:
+    """``message`` with the arguments of farlod.pack() in place of the options of farlod-pack, and of files in ``folder``."""
     names = {**{name: name.replace("-", "_") for name in _SAME_NAMES}, **_ARGUMENTS}
 
     def argument(match: re.Match[str]) -> str:
@@ -41,5 +56,5 @@ def in_python(message: str) -> str:
             return match[0]
         return f'{name}="{match["epsg"]}"' if match["epsg"] else name
 
-    text = message.replace("--force", "overwrite=True").replace(" for -o", " for path")
+    text = _with_what_was_given(message, folder).replace("--force", "overwrite=True").replace(" for -o", " for path")
     return re.sub(r"(?<![\w-])--(?P<option>[a-z]+(?:-[a-z]+)*)(?: (?P<epsg>EPSG:\w+))?", argument, text)

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 Floats = npt.NDArray[np.float64]
 
+#: Nobody asks a city for places that are farther away.
+_FARTHEST_M = 100_000.0
+
 
 @dataclass(frozen=True)
 class Receivers:
@@ -31,6 +34,7 @@ class Receivers:
     azimuth: Floats | None
     tilt: Floats | None
     index: pandas.Index | None = None  #: of the GeoSeries that the points came from
+    first_given: tuple[float, float] | None = None  #: of the GeoSeries, in its own CRS
 
     def __len__(self) -> int:
         return int(self.x.size)
@@ -41,17 +45,47 @@ def is_geo(points: Any) -> bool:
     return hasattr(points, "to_crs") and hasattr(points, "geometry")
 
 
-def _columns_of_geometries(points: Any, crs_wkt: str) -> tuple[Floats, Floats, Floats | None]:
+def _are_near(x: Any, y: Any, bounds: _arguments.Bbox) -> Any:
+    west, south, east, north = bounds
+    return np.hypot(x - (west + east) / 2.0, y - (south + north) / 2.0) <= _FARTHEST_M
+
+
+def _require_points(geometries: Any) -> None:
+    is_wrong = (geometries.isna() | geometries.is_empty | (geometries.geom_type != "Point")).to_numpy()
+    if not is_wrong.any():
+        return
+    first = int(is_wrong.argmax())
+    shape = geometries.iloc[first]
+    found = "no geometry" if shape is None else "an empty one" if shape.is_empty else f"a {shape.geom_type}"
+    raise InvalidArgument(
+        f"points has geometries that are no points, or empty: the first of {is_wrong.sum()} is {found} at index "
+        f"{geometries.index[first]!r}. Leave them out, or take their centroid; City.surfaces() answers for buildings"
+    )
+
+
+def _refuse_exchanged(given: Any, x: Floats, y: Floats, crs_wkt: str, bounds: _arguments.Bbox) -> None:
+    """Refuses degrees of which none lies near the city, where the first does with latitude and longitude exchanged."""
+    if len(given) == 0 or not given.crs.is_geographic or _are_near(x, y, bounds).any():
+        return
+    import pyproj
+
+    first = given.iloc[0]
+    exchanged = pyproj.Transformer.from_crs(given.crs, crs_wkt, always_xy=True).transform(first.y, first.x)
+    if _are_near(*exchanged, bounds):
+        raise InvalidArgument(
+            f"points begin with ({first.x:.10g}, {first.y:.10g}) in {given.crs.name}, more than 100 km from the city: give the "
+            "longitude before the latitude"
+        )
+
+
+def _columns_of_geometries(points: Any, crs_wkt: str, bounds: _arguments.Bbox) -> tuple[Floats, Floats, Floats | None]:
     geometries = points.geometry
     if geometries.crs is None:
         raise InvalidArgument("points have no CRS: set it with set_crs(), so that they can be brought into the city's")
-    if not (geometries.geom_type == "Point").all() or geometries.is_empty.any():
-        raise InvalidArgument(
-            "points has geometries that are no points, or empty: leave them out, or take their centroid; "
-            "City.surfaces() answers for buildings"
-        )
+    _require_points(geometries)
     here = geometries.to_crs(crs_wkt)
     x, y = here.x.to_numpy(np.float64), here.y.to_numpy(np.float64)
+    _refuse_exchanged(geometries, x, y, crs_wkt, bounds)
     if not (np.isfinite(x) & np.isfinite(y)).all():
         raise InvalidArgument("points lie where the CRS of the city does not reach: check their CRS")
     has_z = here.has_z.to_numpy()
@@ -101,19 +135,19 @@ def _advice(x: Floats, y: Floats, has_crs: bool) -> str:
     )
 
 
-def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str, *, has_crs: bool = False) -> None:
+def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str, *, given: tuple[float, float] | None = None) -> None:
     """Refuses points that all lie beyond the city, where none has an answer, and warns of some that do."""
-    farthest_m, farthest_on_maps_m, reach_m = 100_000.0, 1e8, _runtime.answered_beyond_grid_m
+    farthest_on_maps_m, reach_m = 1e8, _runtime.answered_beyond_grid_m
     west, south, east, north = bounds
     # What lies nowhere on Earth is told by the library, with its index
     if x.size == 0 or not (np.abs(x) + np.abs(y) < farthest_on_maps_m).all():
         return
-    distance = np.hypot(x - (west + east) / 2.0, y - (south + north) / 2.0)
-    begin = f"points begin with ({x[0]:.10g}, {y[0]:.10g}), and all lie more than "
-    if distance.min() > farthest_m:
+    first_x, first_y = given or (x[0], y[0])
+    begin = f"points begin with ({first_x:.10g}, {first_y:.10g}), and all lie more than "
+    if not _are_near(x, y, bounds).any():
         raise InvalidArgument(
             f"{begin}100 km from the city, which is at ({(west + east) / 2.0:.0f}, {(south + north) / 2.0:.0f}) in {crs}: "
-            + _advice(x, y, has_crs)
+            + _advice(x, y, given is not None)
         )
     beyond = (x < west - reach_m) | (x > east + reach_m) | (y < south - reach_m) | (y > north + reach_m)
     if beyond.all():
@@ -130,9 +164,10 @@ def require_near(x: Floats, y: Floats, bounds: _arguments.Bbox, crs: str, *, has
         )
 
 
-def receivers_of(points: Any, normals: Any, crs_wkt: str, convergence_deg: float) -> Receivers:
+def receivers_of(points: Any, normals: Any, crs_wkt: str, convergence_deg: float, bounds: _arguments.Bbox) -> Receivers:
     """``points`` and ``normals`` as City.svf() describes them. Raises InvalidArgument."""
     geo = is_geo(points)
-    x, y, z = _columns_of_geometries(points, crs_wkt) if geo else _columns_of_array(points)
+    x, y, z = _columns_of_geometries(points, crs_wkt, bounds) if geo else _columns_of_array(points)
     azimuth, tilt = (None, None) if normals is None else _facing(normals, int(x.size), convergence_deg)
-    return Receivers(x, y, z, azimuth, tilt, points.index if geo else None)
+    first = (points.geometry.iloc[0].x, points.geometry.iloc[0].y) if geo and len(points) > 0 else None
+    return Receivers(x, y, z, azimuth, tilt, points.index if geo else None, first)
