@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/picture_options.hpp"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <set>
 
 #include "app/format_advice.hpp"
@@ -68,7 +72,39 @@ std::string first_column_of(const std::string& quantity) {
   return columns.empty() ? quantity : columns.front();
 }
 
+std::string text_of_days(const SunPeriod& sun) {
+  const std::chrono::year_month_day first(sun.first);
+  const int year = static_cast<int>(first.year());
+  if (sun.days > 1) return fmt::format("{}", year);
+  return fmt::format("{}-{:02}-{:02}", year, static_cast<unsigned>(first.month()), static_cast<unsigned>(first.day()));
+}
+
+std::string text_of_light(const LightSource& light) {
+  const std::string period = light.period.empty() ? "All of the weather" : light.period;
+  return light.weather_file.empty() ? period + ", clear sky" : period;
+}
+
+std::string text_of_height(const Placing& placing) {
+  constexpr double lowest_m = 0.1;  // what stands lower is said to stand on the surface
+  const char* const zero = placing.above == HeightAbove::ground            ? "the ground"
+                           : placing.above == HeightAbove::highest_surface ? "the surface"
+                                                                           : "sea level";
+  if (placing.above == HeightAbove::highest_surface && placing.height_m < lowest_m) return "on the surface";
+  return fmt::format("{:g} m above {}", placing.height_m, zero);
+}
+
 }  // namespace
+
+std::string conditions_of(const SvfOptions& options, const std::string& column) {
+  const auto is_one_of = [&](const auto& names) {
+    return std::ranges::any_of(names, [&](const char* name) { return column.starts_with(name); });
+  };
+  constexpr std::array<const char*, 4> of_light{"irradiation", "irradiance", "illuminance", "shade"};
+  const std::string height = text_of_height(options.placing);
+  if (options.light && is_one_of(of_light)) return text_of_light(*options.light) + ", " + height;
+  if (options.sunshine && column.starts_with("sunlit")) return text_of_days(*options.sunshine) + ", " + height;
+  return height;
+}
 
 bool fits_picture(const RawQuantities& raw) {
   std::set<std::string> besides;
@@ -106,7 +142,8 @@ void add_picture_options(CLI::App& app, RawPictures& raw, SvfOptions& o) {
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--histogram", o.histogram_file,
-                 "Also draw how the values are distributed as this picture (PNG, SVG or PDF); surfaces count by their area")
+                 "Also draw how the values of the quantity that --preview shows are distributed, as this picture (PNG, SVG or "
+                 "PDF); surfaces count by their area")
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--projection", raw.projection, "Of a picture of the sky above --at (default: equal-area)")

@@ -33,5 +33,7 @@ void resolve_pictures(const RawPictures& raw, SvfOptions& o);
 /// Where the band that a picture shows is among those of a raster: the first of the drawn quantity. Where nothing is named, it is
 /// svf_total if that comes by itself, of a city with trees.
 [[nodiscard]] std::size_t drawn_band_of(const SvfOptions& options, const std::vector<ColumnDescription>& bands);
+/// When, below what sky and how high a column of a run is: "2026-06-21, clear sky, 1.5 m above the ground".
+[[nodiscard]] std::string conditions_of(const SvfOptions& options, const std::string& column);
 
 }  // namespace farlod

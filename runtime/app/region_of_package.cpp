@@ -36,7 +36,9 @@ bool is_near_city(const Box2d& box, const PackageDescription& package) {
 
 bool may_be_degrees(const Box2d& box) {
   const auto is_on_globe = [](Point2d p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; };
-  return is_on_globe(box.low) && is_on_globe(box.high);
+  constexpr double largest_deg = 5.0;  // no city is larger
+  const Point2d size = box.high - box.low;
+  return is_on_globe(box.low) && is_on_globe(box.high) && std::max(size.x, size.y) <= largest_deg;
 }
 
 /// The box around what longitudes and latitudes enclose, if it is one in the CRS of the package; its sides are curved there.

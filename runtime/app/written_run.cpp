@@ -50,6 +50,7 @@ std::vector<Band> bands_of_run(const SvfOptions& options) {
 RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Package& package, std::size_t threads) {
   std::vector<Band> bands = bands_of_run(options);
   const std::size_t drawn = drawn_band_of(options, bands);
+  std::string conditions = conditions_of(options, bands[drawn].name);
   return {plan.north_west_m,
           plan.step_m,
           plan.columns,
@@ -60,7 +61,8 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Pa
           threads,
           provenance_of(options, package.description()),
           &package,
-          drawn};
+          drawn,
+          std::move(conditions)};
 }
 
 TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const Package& package) {
@@ -73,6 +75,7 @@ bool draws_errors(const SvfOptions& options) { return options.verify_format != n
 /// What is verified, and what a map of errors shows.
 RasterFrame with_svf_drawn(RasterFrame frame) {
   frame.drawn_band = 0;
+  frame.conditions = {};
   return frame;
 }
 
@@ -281,7 +284,7 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
   run.caller_bytes = files.bytes() + (fit ? PreviewWriter::bytes_for(frame) : 0);
   const auto take = [&](const RasterTile& tile) {
     files.write(tile);
-    histogram.add(tile.svf);
+    histogram.add(bands_of(tile)[frame.drawn_band]);
     if (fit) fit->add(tile);
   };
   written.summary = evaluate_raster(package, plan, options.placing, options.evaluation, take, run);
@@ -315,7 +318,7 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
   RunHistogram histogram(options);
-  histogram.add(answers.svf);
+  histogram.add(answers);
   written.write_s = seconds_of([&] {
     options.format->write_points(rows_of(named, answers), frame, options.output);
     histogram.write(options);

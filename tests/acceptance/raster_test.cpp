@@ -192,6 +192,17 @@ TEST_F(PackedTown, HistogramsAreTheSameForAnyNumberOfThreads) {
   EXPECT_NE(folder.text_of("walls.svg"), folder.text_of("one.svg"));
 }
 
+/// Whatever was asked for, the distribution was that of svf.
+TEST_F(PackedTown, HistogramsAreOfTheQuantityThatAPreviewShows) {
+  folder.write("p.csv", "x,y\n" + text_of(p_projected({-60.0, 0.0})) + "\n");
+  for (const std::string receivers : {"-o o.tif --grid 20", "-o o.csv --surfaces all --spacing 12", "-o o.csv --points p.csv"}) {
+    folder.must("farlod-svf a.farlod --histogram h.svg --quantity irradiation --period 2026-06-21 " + receivers);
+    EXPECT_NE(folder.text_of("h.svg").find("<title>Distribution of irradiation</title>"), std::string::npos) << receivers;
+    folder.must("farlod-svf a.farlod --histogram h.svg --quantity irradiation,svf --period 2026-06-21 " + receivers);
+    EXPECT_NE(folder.text_of("h.svg").find("<title>Distribution of svf</title>"), std::string::npos) << receivers;
+  }
+}
+
 TEST_F(PackedTown, VerifyTellsTheErrorOfTheFarMap) {
   const double border = 4.0 * std::numbers::pi;
   std::vector<double> mean_errors;

@@ -11,7 +11,6 @@
 #include "base/expects.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/value_scale.hpp"
-#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {
@@ -29,14 +28,18 @@ void add_text(Drawing& drawing, PagePoint place, const std::string& words, Align
   drawing.shapes.emplace_back(Text{place, words, text_height, alignment, colour});
 }
 
-void add_axis_of_values(Drawing& drawing, const std::string& quantity) {
+void add_axis_of_values(Drawing& drawing, const std::string& quantity, const ValueScale& scale) {
+  constexpr int most_steps = 10;
+  constexpr double rounding = 1e-9;
   drawing.shapes.emplace_back(Line{{{plot_left, bottom}, {plot_left + plot_width, bottom}}, 1.5, ink});
-  for (int n = 0; n <= 10; ++n) {
-    const double x = histogram_point(n / 10.0, 0.0, 1.0).x;
+  const double step = tick_step(scale.end, most_steps);
+  for (int n = 0; n * step <= scale.end * (1.0 + rounding); ++n) {
+    const double x = histogram_point(n * step / scale.end, 0.0, 1.0).x;
     drawing.shapes.emplace_back(Line{{{x, bottom}, {x, bottom + 6.0}}, 1.5, ink});
-    add_text(drawing, {x, bottom + 24.0}, svf_decimal(n / 10.0).substr(0, 3), Alignment::centre);
+    add_text(drawing, {x, bottom + 24.0}, tick_text(n * step, step), Alignment::centre);
   }
-  add_text(drawing, {plot_left + 0.5 * plot_width, bottom + 48.0}, quantity, Alignment::centre);
+  const std::string unit = scale.unit.empty() ? "" : ", " + scale.unit;
+  add_text(drawing, {plot_left + 0.5 * plot_width, bottom + 48.0}, quantity + unit, Alignment::centre);
 }
 
 constexpr int most_steps_of_shares = 5;
@@ -51,10 +54,10 @@ void add_axis_of_shares(Drawing& drawing, double highest) {
   }
 }
 
-void add_bars(Drawing& drawing, std::span<const HistogramSeries> series, double highest) {
+void add_bars(Drawing& drawing, std::span<const HistogramSeries> series, double end, double highest) {
   const double width = share_of_bin * plot_width / histogram_bins / static_cast<double>(series.size());
   for (std::size_t s = 0; s < series.size(); ++s) {
-    const std::vector<double> shares = series[s].counts.shares(histogram_bins);
+    const std::vector<double> shares = series[s].counts.shares(histogram_bins, end);
     for (std::size_t bin = 0; bin < shares.size(); ++bin) {
       if (shares[bin] == 0.0) continue;
       const double middle = (static_cast<double>(bin) + 0.5) / histogram_bins;
@@ -66,8 +69,8 @@ void add_bars(Drawing& drawing, std::span<const HistogramSeries> series, double 
 }
 
 /// A line between the quartiles, a stroke at the median, a dot at the mean.
-void add_strip(Drawing& drawing, const HistogramSeries& series, double y, Colour colour) {
-  const auto x_at = [&](std::optional<double> value) { return histogram_point(*value, 0.0, 1.0).x; };
+void add_strip(Drawing& drawing, const HistogramSeries& series, double end, double y, Colour colour) {
+  const auto x_at = [&](std::optional<double> value) { return histogram_point(std::min(*value / end, 1.0), 0.0, 1.0).x; };
   const double low = x_at(series.counts.quantile(0.25)), high = x_at(series.counts.quantile(0.75)),
                median = x_at(series.counts.quantile(0.5)), mean = x_at(series.counts.mean());
   drawing.shapes.emplace_back(Line{{{plot_left, y}, {plot_left + plot_width, y}}, 0.8, grid_line_colour});
@@ -77,19 +80,24 @@ void add_strip(Drawing& drawing, const HistogramSeries& series, double y, Colour
   drawing.shapes.emplace_back(disc({mean, y}, 4.0, {255, 255, 255}));
 }
 
+/// Three digits of a share, and as many of other values.
+int decimals_up_to(double end) { return end > 200.0 ? 0 : end > 20.0 ? 1 : end > 2.0 ? 2 : 3; }
+
 /// "roofs, 5678 m²: mean 0.912, quartiles 0.871, 0.943, 0.991".
-std::string figures_of(const HistogramSeries& series) {
+std::string figures_of(const HistogramSeries& series, double end) {
   const std::string head = series.name + ", " + series.size;
   if (!series.counts.mean()) return head + ": no values";
-  return head + fmt::format(": mean {:.3f}, quartiles {:.3f}, {:.3f}, {:.3f}", *series.counts.mean(),
-                            *series.counts.quantile(0.25), *series.counts.quantile(0.5), *series.counts.quantile(0.75));
+  const int decimals = decimals_up_to(end);
+  const auto text = [&](std::optional<double> value) { return fmt::format("{:.{}f}", *value, decimals); };
+  return head + ": mean " + text(series.counts.mean()) + ", quartiles " + text(series.counts.quantile(0.25)) + ", " +
+         text(series.counts.quantile(0.5)) + ", " + text(series.counts.quantile(0.75));
 }
 
-void add_legend(Drawing& drawing, std::span<const HistogramSeries> series) {
+void add_legend(Drawing& drawing, std::span<const HistogramSeries> series, double end) {
   double y = bottom + 84.0;
   for (std::size_t s = 0; s < series.size(); ++s, y += 24.0) {
     drawing.shapes.emplace_back(box({plot_left, y - 12.0}, 16.0, 14.0, colour_of_series(s)));
-    add_text(drawing, {plot_left + 26.0, y}, figures_of(series[s]), Alignment::left);
+    add_text(drawing, {plot_left + 26.0, y}, figures_of(series[s], end), Alignment::left);
   }
   drawing.shapes.emplace_back(Line{{{plot_left + 8.0, y - 13.0}, {plot_left + 8.0, y + 3.0}}, 2.5, ink});
   add_text(drawing, {plot_left + 26.0, y}, "median", Alignment::left, muted);
@@ -102,10 +110,22 @@ void add_legend(Drawing& drawing, std::span<const HistogramSeries> series) {
 
 }  // namespace
 
+// Halves of a range that begins this small are as fine as the page, whatever the unit
+ValueCounts::ValueCounts(CountedRange range)
+    : range_(range), end_(range == CountedRange::shares ? 1.0 : 1.0 / 1024.0), weights_(fine_bins) {}
+
+void ValueCounts::double_range() {
+  for (std::size_t bin = 0; bin < fine_bins / 2; ++bin) weights_[bin] = weights_[2 * bin] + weights_[2 * bin + 1];
+  std::fill(weights_.begin() + fine_bins / 2, weights_.end(), 0.0);
+  end_ *= 2.0;
+}
+
 void ValueCounts::add(double value, double weight) {
   if (std::isnan(value)) return;
-  const double inside = std::clamp(value, 0.0, 1.0);
-  const auto bin = static_cast<std::size_t>(inside * static_cast<double>(fine_bins));
+  while (range_ == CountedRange::from_zero && std::isfinite(value) && value > end_) double_range();
+  const double inside = std::clamp(value, 0.0, end_);
+  largest_ = std::max(largest_, inside);
+  const auto bin = static_cast<std::size_t>(inside / end_ * static_cast<double>(fine_bins));
   weights_[std::min(bin, fine_bins - 1)] += weight;
   weighted_ += weight * inside;
   weight_ += weight;
@@ -123,14 +143,19 @@ std::optional<double> ValueCounts::quantile(double share) const {
     below += weights_[bin];
     if (weights_[bin] > 0.0 && below >= share * weight_) break;
   }
-  return (static_cast<double>(last) + 0.5) / static_cast<double>(fine_bins);
+  return (static_cast<double>(last) + 0.5) / static_cast<double>(fine_bins) * end_;
 }
 
-std::vector<double> ValueCounts::shares(std::size_t bins) const {
+std::vector<double> ValueCounts::shares(std::size_t bins, double end) const {
   FARLOD_EXPECTS(bins > 0 && fine_bins % bins == 0);
   std::vector<double> shares(bins);
   if (!(weight_ > 0.0)) return shares;
-  for (std::size_t bin = 0; bin < fine_bins; ++bin) shares[bin / (fine_bins / bins)] += weights_[bin] / weight_;
+  // By its middle, a fine bin that two of the bins share belongs to one of them
+  const double bins_per_fine = end_ / end * static_cast<double>(bins) / static_cast<double>(fine_bins);
+  for (std::size_t bin = 0; bin < fine_bins; ++bin) {
+    const auto at = static_cast<std::size_t>((static_cast<double>(bin) + 0.5) * bins_per_fine);
+    shares[std::min(at, bins - 1)] += weights_[bin] / weight_;
+  }
   return shares;
 }
 
@@ -138,10 +163,10 @@ PagePoint histogram_point(double value, double share, double highest) {
   return {plot_left + value * plot_width, bottom - share / highest * plot_height};
 }
 
-double highest_share(std::span<const HistogramSeries> series) {
+double highest_share(std::span<const HistogramSeries> series, double end) {
   double largest = 0.0;
   for (const HistogramSeries& s : series) {
-    const std::vector<double> shares = s.counts.shares(histogram_bins);
+    const std::vector<double> shares = s.counts.shares(histogram_bins, end);
     largest = std::max(largest, *std::ranges::max_element(shares));
   }
   if (!(largest > 0.0)) return 1.0;
@@ -160,15 +185,19 @@ Drawing draw_histogram(std::span<const HistogramSeries> series, const HistogramC
   FARLOD_EXPECTS(!series.empty() && series.size() <= series_colours.size());
   Drawing drawing{histogram_size, "Distribution of " + caption.quantity};
   drawing.shapes.emplace_back(Text{{24.0, 46.0}, drawing.title, title_height, Alignment::left, ink});
-  add_text(drawing, {24.0, 74.0}, caption.shares + " in bins of 0.02", Alignment::left, muted);
-  const double highest = highest_share(series);
+  double largest = 0.0;
+  for (const HistogramSeries& s : series) largest = std::max(largest, s.counts.largest());
+  const ValueScale scale = scale_of({caption.quantity, caption.unit, ""}, largest);
+  const std::string bin = fmt::format("{:g} {}", scale.end / histogram_bins, scale.unit);
+  add_text(drawing, {24.0, 74.0}, caption.shares + " in bins of " + bin, Alignment::left, muted);
+  const double highest = highest_share(series, scale.end);
   add_axis_of_shares(drawing, highest);
-  add_bars(drawing, series, highest);
-  add_axis_of_values(drawing, caption.quantity);
+  add_bars(drawing, series, scale.end, highest);
+  add_axis_of_values(drawing, caption.quantity, scale);
   for (std::size_t s = 0; s < series.size(); ++s)
     if (series[s].counts.mean())
-      add_strip(drawing, series[s], first_strip + static_cast<double>(s) * step_of_strips, colour_of_series(s));
-  add_legend(drawing, series);
+      add_strip(drawing, series[s], scale.end, first_strip + static_cast<double>(s) * step_of_strips, colour_of_series(s));
+  add_legend(drawing, series, scale.end);
   return drawing;
 }
 

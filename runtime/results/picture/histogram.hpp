@@ -12,11 +12,14 @@
 
 namespace farlod {
 
-/// How values between 0 and 1 are distributed. It holds 10,000 sums, however many values come. Values that come in the same order
-/// give the same sums to the bit.
+/// Which values are counted: shares lie between 0 and 1, and others from 0 to a largest one that nobody knows before.
+enum class CountedRange { shares, from_zero };
+
+/// How values are distributed. It holds 10,000 sums, however many values come. Values that come in the same order give the same
+/// sums to the bit.
 class ValueCounts {
  public:
-  ValueCounts() : weights_(fine_bins) {}
+  explicit ValueCounts(CountedRange range = CountedRange::shares);
 
   /// NaN is not counted. What lies outside counts as the nearer end.
   void add(double value, double weight = 1.0);
@@ -25,17 +28,23 @@ class ValueCounts {
   [[nodiscard]] double weight() const { return weight_; }
   /// None before the first value of some weight.
   [[nodiscard]] std::optional<double> mean() const;
-  /// The value that `share` of the weight does not exceed, within half a ten thousandth.
+  /// The largest value; 0 before the first.
+  [[nodiscard]] double largest() const { return largest_; }
+  /// The value that `share` of the weight does not exceed, within half a ten thousandth of 1, or of twice the largest value.
   [[nodiscard]] std::optional<double> quantile(double share) const;
-  /// The shares of the weight in equal bins. The last of them has its upper end, too. `bins` divides 10,000.
-  [[nodiscard]] std::vector<double> shares(std::size_t bins) const;
+  /// The shares of the weight in equal bins from 0 to `end`. The last of them has all from there on, too. `bins` divides 10,000.
+  [[nodiscard]] std::vector<double> shares(std::size_t bins, double end = 1.0) const;
 
  private:
   static constexpr std::size_t fine_bins = 10'000;
 
+  void double_range();
+
+  CountedRange range_;
+  double end_;  ///< of the last bin
   std::vector<double> weights_;
   std::size_t count_ = 0;
-  double weight_ = 0.0, weighted_ = 0.0;
+  double weight_ = 0.0, weighted_ = 0.0, largest_ = 0.0;
 };
 
 /// Some values, and what they are called: "pixels", "roofs".
@@ -46,20 +55,22 @@ struct HistogramSeries {
 
 /// What a histogram says besides.
 struct HistogramCaption {
-  std::string quantity;  ///< "svf" or "svf_solid"
-  std::string shares;    ///< of what: "Share of the pixels"
+  std::string quantity;    ///< name of its column, such as "svf"
+  std::string shares;      ///< of what: "Share of the pixels"
+  std::string unit = "1";  ///< of the quantity, in the words of UDUNITS; "1" of a share
 };
 
 inline constexpr std::size_t histogram_bins = 50;
 
-/// Bars of the shares in bins of .02, of one series or of two side by side, and above them, for each series, a line from its
-/// lower to its upper quartile with a stroke at its median and a dot at its mean.
+/// Bars of the shares in fifty bins, which are .02 wide where values are shares, of one series or of two side by side, and above
+/// them, for each series, a line from its lower to its upper quartile with a stroke at its median and a dot at its mean.
 [[nodiscard]] Drawing draw_histogram(std::span<const HistogramSeries> series, const HistogramCaption& caption);
 
-/// The place of a value and of a share on the page of draw_histogram; `highest` is the share at the top.
+/// The place of a value, as a share of that at the end of the axis, and of a share on the page of draw_histogram; `highest` is
+/// the share at the top.
 [[nodiscard]] PagePoint histogram_point(double value, double share, double highest);
 /// The share at the top of the axis: that of the tallest bar, rounded up to a tick, of which there are five at the most.
-[[nodiscard]] double highest_share(std::span<const HistogramSeries> series);
+[[nodiscard]] double highest_share(std::span<const HistogramSeries> series, double end = 1.0);
 [[nodiscard]] Colour colour_of_series(std::size_t n);
 
 }  // namespace farlod

@@ -90,9 +90,11 @@ constexpr PixelSize legend_size{96, 280};
 constexpr std::size_t colour_bar_width = 28, footer_height = 48;
 constexpr std::size_t narrowest_content = 560;  // the longest title must fit
 
-/// The unit of the colours, the pixels that they stand for, and where north is up.
+/// The unit of the colours, what they are drawn for, the pixels that they stand for, and where north is up.
 std::string subtitle_of(const RasterFrame& frame, const ValueScale& scale) {
-  std::string text = scale.subtitle + ". Pixels of " + shortest_decimal(frame.step_m) + " m";
+  std::string conditions = frame.conditions.empty() ? "" : ". " + frame.conditions;
+  if (conditions.starts_with(". on ")) conditions[2] = 'O';
+  std::string text = scale.subtitle + conditions + ". Pixels of " + shortest_decimal(frame.step_m) + " m";
   if (frame.epsg) text += ", EPSG:" + std::to_string(*frame.epsg);
   return text;
 }
@@ -282,27 +284,31 @@ PlanBackground plan_background(const Package& package, const RasterPlan& plan, s
   return background;
 }
 
-PreviewLayout preview_layout(PixelSize map_size) {
+PreviewLayout preview_layout(PixelSize map_size, std::size_t letters) {
+  constexpr double letter_width = 0.53 * text_height;  // of a line of them, on average
+  constexpr std::size_t below_long_heading = 12;       // the unit stands above the colours, and must not touch the heading
+  const auto heading = static_cast<std::size_t>(letter_width * static_cast<double>(letters));
   PreviewLayout layout;
-  layout.map = {margin, margin + heading_height + gap};
+  layout.map = {margin, margin + heading_height + gap + (heading > map_size.width ? below_long_heading : 0)};
   layout.map_size = map_size;
   // The scale stands beside its map, however narrow that is
   layout.colour_bar = {margin + map_size.width + gap, layout.map.y};
   layout.colour_bar_size = {colour_bar_width, std::min(std::max(map_size.height, legend_size.height / 2), legend_size.height)};
   layout.footer = {margin, layout.map.y + std::max(map_size.height, layout.colour_bar_size.height) + gap};
-  layout.picture = {margin + std::max(map_size.width + gap + legend_size.width, narrowest_content) + margin,
+  layout.picture = {margin + std::max({map_size.width + gap + legend_size.width, narrowest_content, heading}) + margin,
                     layout.footer.y + footer_height + margin};
   return layout;
 }
 
 Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background) {
-  const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
   const ValueScale scale = drawn_scale(raster, frame);
+  const std::string subtitle = subtitle_of(frame, scale);
+  const PreviewLayout layout = preview_layout({raster.columns, raster.rows}, frame.conditions.empty() ? 0 : subtitle.size());
   Drawing drawing{layout.picture, scale.title};
   const double left = static_cast<double>(margin), top = static_cast<double>(margin);
   drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(
-      Text{{left, top + static_cast<double>(heading_height)}, subtitle_of(frame, scale), text_height, Alignment::left, muted});
+      Text{{left, top + static_cast<double>(heading_height)}, subtitle, text_height, Alignment::left, muted});
   drawing.shapes.emplace_back(Image{layout.map, map_of(raster, scale, background)});
   add_outlines(drawing, layout, background);
   add_colour_bar(drawing, layout, scale);

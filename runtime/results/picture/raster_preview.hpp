@@ -97,7 +97,8 @@ struct PreviewLayout {
   Pixel footer;
 };
 
-[[nodiscard]] PreviewLayout preview_layout(PixelSize map_size);
+/// With room for so many letters in the second line of the heading.
+[[nodiscard]] PreviewLayout preview_layout(PixelSize map_size, std::size_t letters = 0);
 
 /// Draws a band of a raster (RasterFrame::drawn_band) as a map with a title, a colour scale, a scale bar in metres and a north
 /// arrow. Pixels without a value are grey: those of buildings, and, lightened and darkened as the ground is lit, all others.

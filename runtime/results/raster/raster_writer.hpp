@@ -42,6 +42,7 @@ struct RasterFrame {
   Provenance provenance = {};
   const Package* package = nullptr;  ///< whose outlines and ground a picture shows; none of them where there is none
   std::size_t drawn_band = 0;        ///< which of the bands a picture shows
+  std::string conditions = {};       ///< that it is drawn for, in words: when, below what sky, how high
 };
 
 /// Writes a raster tile by tile, so that nobody has to hold the whole raster. The file appears with commit(), and not before. A
