@@ -100,7 +100,7 @@ std::string conditions_of(const SvfOptions& options, const std::string& column) 
     return std::ranges::any_of(names, [&](const char* name) { return column.starts_with(name); });
   };
   constexpr std::array<const char*, 4> of_light{"irradiation", "irradiance", "illuminance", "shade"};
-  const std::string height = text_of_height(options.placing);
+  std::string height = text_of_height(options.placing);
   if (options.light && is_one_of(of_light)) return text_of_light(*options.light) + ", " + height;
   if (options.sunshine && column.starts_with("sunlit")) return text_of_days(*options.sunshine) + ", " + height;
   return height;
