@@ -69,7 +69,7 @@ TEST(ValueCounts, OfNothingAreNothing) {
 
 TEST(Histogram, BarsAreAsHighAsTheirShares) {
   // 40 % in the bin from .1 to .12, 10 % in that from .9 to .92, of roofs; all walls in one
-  std::vector<HistogramSeries> series{{"roofs", "10 m²", {}}, {"walls", "1 m²", {}}};
+  std::vector<HistogramSeries> series{{"roofs", "10 m²", ValueCounts()}, {"walls", "1 m²", ValueCounts()}};
   series[0].counts.add(0.11, 4.0);
   series[0].counts.add(0.91, 1.0);
   series[0].counts.add(0.51, 5.0);
@@ -94,7 +94,7 @@ TEST(Histogram, BarsAreAsHighAsTheirShares) {
 
 TEST(Histogram, TheAxisEndsNearItsTallestBar) {
   const auto highest = [](double share) {
-    std::vector<HistogramSeries> series{{"pixels", "100", {}}};
+    std::vector<HistogramSeries> series{{"pixels", "100", ValueCounts()}};
     series[0].counts.add(0.11, share);
     for (int n = 0; n < 40; ++n) series[0].counts.add(0.2 + 0.02 * n, (1.0 - share) / 40.0);
     return highest_share(series);
@@ -106,7 +106,7 @@ TEST(Histogram, TheAxisEndsNearItsTallestBar) {
 }
 
 TEST(Histogram, OfNoValuesIsDrawn) {
-  const std::vector<HistogramSeries> series{{"pixels", "0", {}}};
+  const std::vector<HistogramSeries> series{{"pixels", "0", ValueCounts()}};
   EXPECT_EQ(drawn(draw_histogram(series, {"svf", ""})).size(), (PixelSize{900, 680}));
 }
 
