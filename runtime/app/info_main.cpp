@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -160,6 +161,11 @@ std::size_t write_table_of_cells(const Package& package, const PackageFacts& fac
   return zones.zones.size();
 }
 
+/// "cells.csv: 4 rows", in a line.
+std::string text_of_table(const std::filesystem::path& file, std::size_t rows) {
+  return fmt::format("{}: {} {}\n", file.string(), rows, rows == 1 ? "row" : "rows");
+}
+
 void require_outputs(const InfoOptions& options) {
   const std::array<NamedFile, 2> inputs{{{"--report", options.report_file}, {"--zones", options.zones_file}}};
   const std::array<NamedOutput, 4> outputs{{{{"--obj", options.obj_file}},
@@ -178,8 +184,7 @@ int run(const InfoOptions& options) {
   if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
   if (!options.picture_file.empty()) (options.cell ? draw_neighborhood : draw_city_of)(package, facts, options);
   std::string of_table;
-  if (!options.cells_file.empty())
-    of_table = fmt::format("{}: {} rows\n", options.cells_file.string(), write_table_of_cells(package, facts, options));
+  if (!options.cells_file.empty()) of_table = text_of_table(options.cells_file, write_table_of_cells(package, facts, options));
   const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
   write_text(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
   if (options.json)
