@@ -244,7 +244,9 @@ WrittenRun write_or_forget(const Package& package, const SvfOptions& options, co
   }
 }
 
-void add_light(const std::optional<PeriodLight>& light, WrittenRun& written) {
+/// With what is to be told of a box in degrees, if there is one.
+void add_light(const std::optional<PeriodLight>& light, const std::optional<std::string>& note_of_box, WrittenRun& written) {
+  if (note_of_box) written.notes.insert(written.notes.begin(), *note_of_box);
   written.light = light;
   if (!light) return;
   const std::vector<std::string> notes = notes_of(*light);
@@ -282,8 +284,7 @@ WrittenRun evaluate(SvfOptions options) {
   WrittenRun written = write_or_forget(package, options, run, kept);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
-  add_light(light, written);
-  if (note_of_box) written.notes.insert(written.notes.begin(), *note_of_box);
+  add_light(light, note_of_box, written);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   add_notes_of_package(package, options, written);
   if (options.shard) kept.finish();
