@@ -35,8 +35,8 @@ struct SurveyedGround {
 ///   (1) another_datum: at most a fifth of the buildings of a file stand on the ground, with one offset three quarters of them
 ///       would, and it is no plinth (1.5 m above the ground) and no cellar (3.2 m below it); or this holds in a square of 2 km.
 ///       Reported once for each file. Of fewer than eight buildings, only offsets of 10 m count.
-///       Where no offset is told, buildings are that hang 2 m and more above all ground below them, each by another height: a
-///       fifth of the file's, and four at least, of eight
+///       Where no offset is told, buildings are counted that hang 2 m and more above all ground below them, each by another
+///       height: a fifth of those of the file, and at least four of at least eight.
 ///   (2) beyond_terrain: buildings whose middle is outside of the extent of the survey. Reported once for each file.
 /// Throws InputError when what is told in (1) holds for most of the city, and no town can stand so: its roofs are below the
 /// ground, or its floors 10 m above it; when heights of footprints are elevations (require_heights_above_ground); and when the

@@ -93,6 +93,12 @@ std::string text_of_height(const Placing& placing) {
   return fmt::format("{:g} m above {}", placing.height_m, zero);
 }
 
+/// The same with a capital, which digits have none of.
+std::string as_sentence(std::string text) {
+  if ('a' <= text.front() && text.front() <= 'z') text.front() = static_cast<char>(text.front() - 'a' + 'A');
+  return text;
+}
+
 }  // namespace
 
 std::string conditions_of(const SvfOptions& options, const std::string& column) {
@@ -100,10 +106,10 @@ std::string conditions_of(const SvfOptions& options, const std::string& column) 
     return std::ranges::any_of(names, [&](const char* name) { return column.starts_with(name); });
   };
   constexpr std::array<const char*, 4> of_light{"irradiation", "irradiance", "illuminance", "shade"};
-  std::string height = text_of_height(options.placing);
+  const std::string height = text_of_height(options.placing);
   if (options.light && is_one_of(of_light)) return text_of_light(*options.light) + ", " + height;
   if (options.sunshine && column.starts_with("sunlit")) return text_of_days(*options.sunshine) + ", " + height;
-  return height;
+  return as_sentence(height);
 }
 
 bool fits_picture(const RawQuantities& raw) {

@@ -92,8 +92,7 @@ constexpr std::size_t narrowest_content = 560;  // the longest title must fit
 
 /// The unit of the colours, what they are drawn for, the pixels that they stand for, and where north is up.
 std::string subtitle_of(const RasterFrame& frame, const ValueScale& scale) {
-  std::string conditions = frame.conditions.empty() ? "" : ". " + frame.conditions;
-  if (conditions.starts_with(". on ")) conditions[2] = 'O';
+  const std::string conditions = frame.conditions.empty() ? "" : ". " + frame.conditions;
   std::string text = scale.subtitle + conditions + ". Pixels of " + shortest_decimal(frame.step_m) + " m";
   if (frame.epsg) text += ", EPSG:" + std::to_string(*frame.epsg);
   return text;

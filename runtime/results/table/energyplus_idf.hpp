@@ -12,9 +12,8 @@ namespace farlod {
 
 /// Writes what surfaces see as objects of EnergyPlus, which stand behind those of a model: for each surface a
 /// SurfaceProperty:LocalEnvironment and a SurfaceProperty:SurroundingSurfaces.
-///   (1) A surface is called SurfaceMean::id, or else its building, `_` and its number. Rows of one name are one surface, by
-///   their
-///       areas; those without a receiver that has an answer are left out.
+///   (1) A surface is called SurfaceMean::id, or else its building, `_` and its number. Rows of one name are one surface, whose
+///       means are weighted by their areas; those without a receiver that has an answer are left out.
 ///   (2) View factors are the means of Quantities::view_factors: sky, ground, and of surrounding surfaces those that are seen.
 ///   (3) They have six digits, and add up to .999999 at most: EnergyPlus refuses what is more than 1.
 /// Schedules of temperatures are named, and not written. `columns` are the names of SurfaceMean::further_mean. Throws

@@ -18,7 +18,7 @@ TEST(PictureOptions, SayWhenAndHowHigh) {
   options.sunshine->days = 365;
   options.placing = {HeightAbove::highest_surface, 0.05};
   EXPECT_EQ(conditions_of(options, "sunlit_total_h"), "2026, on the surface");
-  EXPECT_EQ(conditions_of(options, "svf"), "on the surface");
+  EXPECT_EQ(conditions_of(options, "svf"), "On the surface");
   options.placing.height_m = 2.0;
   options.light = LightSource{.period = "2026-06/08"};
   EXPECT_EQ(conditions_of(options, "irradiation"), "2026-06/08, clear sky, 2 m above the surface");
