@@ -50,6 +50,7 @@ inline constexpr std::size_t evaluation_method_count = 6;
 /// a rough surface before horizons are drawn, too.
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
+class LightOfLittleSky;
 class SkyMethod;
 struct Evaluation;
 struct HemisphereDirections;
@@ -89,13 +90,14 @@ class SkyEvaluator {
 
  private:
   explicit SkyEvaluator(std::unique_ptr<const Evaluation> evaluation);
-  [[nodiscard]] const SkyMethod& method_for(Cell cell) const;
+  [[nodiscard]] EvaluationMethod method_for(Cell cell) const;
   /// The horizons of the receivers are answered already.
   void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_shadow_patches(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_view_factors(const CellReceivers& cell, const SkyAnswers& answers) const;
 
   std::unique_ptr<const Evaluation> evaluation_;
+  std::unique_ptr<const LightOfLittleSky> light_of_little_sky_;  ///< null where no light is asked for
   std::array<std::unique_ptr<const SkyMethod>, evaluation_method_count> methods_;
 };
 

@@ -5,20 +5,134 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
+#include <optional>
 
+#include "farlod/point.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {
 namespace {
 
-/// A place around a receiver: how far its azimuth is from a direction d, as a sine, and its slope.
-struct SeenPlace {
-  float angle, slope;
+/// A place on the way from the higher of two horizons to the lower one: the share of the way, and its slope.
+struct PlaceOnWay {
+  float share, slope;
 };
-SeenPlace seen(const Point3f& p, const Point3f& receiver, float cosine, float sine) {
-  const float x = p.x - receiver.x, y = p.y - receiver.y, inverse = 1.0F / std::sqrt(x * x + y * y);
-  return {(cosine * y - sine * x) * inverse, (p.z - receiver.z) * inverse};
+
+/// Where places are seen from a receiver.
+class Way {
+ public:
+  /// The way goes from the azimuth (cosine, sine), by so much of an angle as −1 or 1 times `per_angle` says.
+  Way(const Point3f& receiver, float cosine, float sine, float per_angle)
+      : receiver_(receiver), cosine_(cosine), sine_(sine), per_angle_(per_angle) {}
+
+  [[nodiscard]] PlaceOnWay place(const Point3f& p) const {
+    const float x = p.x - receiver_.x, y = p.y - receiver_.y, inverse = 1.0F / std::sqrt(x * x + y * y);
+    return {(cosine_ * y - sine_ * x) * inverse * per_angle_, (p.z - receiver_.z) * inverse};
+  }
+
+ private:
+  Point3f receiver_;
+  float cosine_, sine_, per_angle_;
+};
+
+/// The sky above slopes at one azimuth, for slopes that are in front of the receiver: F of docs/concepts.md, "Above a horizon".
+class SkyAtAzimuth {
+ public:
+  SkyAtAzimuth(SkyWeight weight, float outward, float upward)
+      : weight_(weight),
+        outward_(outward),
+        upward_(upward),
+        lowest_(outward <= 0.0F && upward > 0.0F ? -outward / upward : 0.0F),
+        highest_(outward > 0.0F && upward < 0.0F ? -outward / upward : std::numeric_limits<float>::infinity()),
+        behind_(std::isinf(highest_) ? 0.0F : integral_from(highest_)) {}
+
+  [[nodiscard]] float above(float slope) const {
+    if (outward_ <= 0.0F && upward_ <= 0.0F) return 0.0F;
+    return integral_from(std::clamp(slope, lowest_, highest_)) - behind_;
+  }
+
+ private:
+  [[nodiscard]] float integral_from(float t) const {
+    if (std::isinf(t)) return 0.0F;
+    const float cos_square = 1.0F / (1.0F + t * t);
+    if (weight_ == SkyWeight::solid_angle) return 1.0F - t * std::sqrt(cos_square);
+    const float zenith_distance = std::numbers::pi_v<float> / 2.0F - std::atan(t);
+    return outward_ * (zenith_distance - t * cos_square) + upward_ * cos_square;
+  }
+
+  SkyWeight weight_;
+  float outward_, upward_, lowest_, highest_, behind_;
+};
+
+/// The higher horizon goes on along its edge and those that follow it, as far as they reach above the lower horizon.
+class BorderOnWay {
+ public:
+  BorderOnWay(const Way& way, const BorderEnds& ends, float higher_slope, float lower_slope)
+      : way_(way), ends_(ends), at_{0.0F, higher_slope}, lower_slope_(lower_slope) {}
+
+  /// Goes to the end of an edge that lies on the way. False if there is none.
+  [[nodiscard]] bool go_along(std::int32_t edge) {
+    const std::size_t first = 2 * static_cast<std::size_t>(edge);
+    const float share_a = way_.place(ends_.end(first).p).share, share_b = way_.place(ends_.end(first + 1).p).share;
+    const std::size_t farther = share_b > share_a ? first + 1 : first;
+    const float share = std::max(share_a, share_b);
+    if (!(share >= 0.0F && share < 1.0F)) return false;
+    go_to(next_to(farther));
+    return true;
+  }
+  /// Goes on along the edge that leads farthest from where another one ended. False if there is none.
+  [[nodiscard]] bool go_on() {
+    if (!end_) return false;
+    std::optional<Next> farthest;
+    for (std::size_t n = ends_.end(*end_).next; n != *end_; n = ends_.end(n).next)
+      if (const Next next = next_to(n ^ 1U); next.place.share > (farthest ? farthest->place.share : at_.share)) farthest = next;
+    if (farthest) go_to(*farthest);
+    return farthest.has_value();
+  }
+  [[nodiscard]] const PlaceOnWay& at() const { return at_; }
+
+ private:
+  struct Next {
+    PlaceOnWay place;
+    std::optional<std::size_t> end;  ///< unless it lies below the lower horizon, or beyond its azimuth
+  };
+  /// The end of an edge from here; or where it comes down to the lower horizon, which it does at the latest at its azimuth.
+  [[nodiscard]] Next next_to(std::size_t end) const {
+    const PlaceOnWay place = way_.place(ends_.end(end).p);
+    if (!(place.share > at_.share) || (place.slope > lower_slope_ && place.share <= 1.0F)) return {place, end};
+    const float down = at_.slope > place.slope ? (at_.slope - lower_slope_) / (at_.slope - place.slope) : 1.0F;
+    const float share = at_.share + std::clamp(down, 0.0F, 1.0F) * (place.share - at_.share);
+    return {{std::min(share, 1.0F), lower_slope_}, std::nullopt};
+  }
+  void go_to(const Next& next) {
+    at_ = next.place;
+    end_ = next.end;
+  }
+
+  const Way& way_;
+  const BorderEnds& ends_;
+  PlaceOnWay at_;
+  float lower_slope_;
+  std::optional<std::size_t> end_;
+};
+
+/// The mean sky on the way, past the border and, from where it ends, above the lower horizon.
+float mean_sky(BorderOnWay& border, const SkyAtAzimuth& sky, float lower_slope, float higher_sky) {
+  // More edges within one jump are not followed
+  constexpr int most_edges = 16;
+  constexpr float half = 0.5F;
+  float share = 0.0F, here = higher_sky, mean = 0.0F;
+  for (int n = 0; n < most_edges; ++n) {
+    const float there = sky.above(border.at().slope);
+    mean += half * (border.at().share - share) * (here + there);
+    share = border.at().share;
+    here = there;
+    if (!border.go_on()) break;
+  }
+  return mean + (1.0F - share) * sky.above(lower_slope);
 }
 
 }  // namespace
@@ -31,7 +145,7 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   for (const SkyJump& jump : horizon.find_jumps(sky_, least, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const Correction correction = correction_of(jump.azimuth, lane, horizon, receivers, ends);
+      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, ends, least});
       above.correction[lane] += correction.sky;
       if (!of_azimuths.empty()) of_azimuths[correction.azimuth][lane] += correction.sky;
     }
@@ -42,43 +156,31 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   return above;
 }
 
-HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
-                                                     const ReceiverPacket& receivers, const BorderEnds& ends) const {
-  constexpr float half = 0.5F;
+HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const {
+  const auto& [horizon, weight, receivers, ends, least] = seen;
   const std::size_t next = azimuth + 1 < azimuths_.size() ? azimuth + 1 : 0;
-  // The higher horizon hides the sky as far as its edge reaches
-  const float here = horizon.row(azimuth)[lane], there = horizon.row(next)[lane];
-  const bool is_here = here > there;
-  const std::size_t higher = is_here ? azimuth : next;
-  const std::int32_t number = horizon.edge_number(higher, lane);
-  if (number < 0) return {};
-  const float share = share_of(higher, is_here ? 1.0F : -1.0F, number, is_here ? there : here,
-                               {receivers.x[lane], receivers.y[lane], receivers.z[lane]}, ends);
-  // An edge that reaches over the middle hides sky of the other azimuth; one that does not leaves sky of its own
-  const bool is_of_here = is_here == (share < half);
-  return {((is_here ? share : 1.0F - share) - half) * (sky_[azimuth][lane] - sky_[next][lane]), is_of_here ? azimuth : next};
-}
-
-float HorizonJumps::share_of(std::size_t higher, float towards, std::int32_t number, float lower_slope, const Point3f& receiver,
-                             const BorderEnds& ends) const {
+  const bool is_here = horizon.row(azimuth)[lane] > horizon.row(next)[lane];
+  const std::size_t higher = is_here ? azimuth : next, lower = is_here ? next : azimuth;
+  const float higher_slope = horizon.row(higher)[lane], lower_slope = horizon.row(lower)[lane];
+  const std::int32_t edge = horizon.edge_number(higher, lane);
+  if (edge < 0) return {};
+  // (1) Both horizons at one azimuth: what is left is the jump, and not the turn of the receiver's normal
+  const float *cosine = azimuths_.cosine(), *sine = azimuths_.sine();
   constexpr float half = 0.5F;
-  const float cosine = azimuths_.cosine()[higher], sine = azimuths_.sine()[higher];
-  const float per_angle = towards * static_cast<float>(azimuths_.size()) / (2.0F * std::numbers::pi_v<float>);
-  const auto share_at = [&](const SeenPlace& place) { return place.angle * per_angle; };
-  // The end of the edge on the side of the other azimuth
-  const std::size_t first = 2 * static_cast<std::size_t>(number);
-  const float share_a = share_at(seen(ends.end(first).p, receiver, cosine, sine)),
-              share_b = share_at(seen(ends.end(first + 1).p, receiver, cosine, sine));
-  const std::size_t last = share_b > share_a ? first + 1 : first;
-  float share = share_b > share_a ? share_b : share_a;
-  if (!(share >= 0.0F && share < 1.0F)) return half;
-  // The edges that go on from there
-  for (std::size_t n = ends.end(last).next; n != last; n = ends.end(n).next) {
-    const SeenPlace other = seen(ends.end(n ^ 1U).p, receiver, cosine, sine);
-    const float share_of_other = share_at(other);
-    if (other.slope > lower_slope && share_of_other > share && share_of_other <= 1.0F) share = share_of_other;
-  }
-  return share;
+  const float outward = half * (receivers.normal_x[lane] * (cosine[higher] + cosine[lower]) +
+                                receivers.normal_y[lane] * (sine[higher] + sine[lower]));
+  const SkyAtAzimuth sky(weight, outward, receivers.normal_z[lane]);
+  const float higher_sky = sky.above(higher_slope), lower_sky = sky.above(lower_slope);
+  if (lower_sky - higher_sky < least) return {};
+  // (2) How far the higher one reaches
+  const float per_angle = static_cast<float>(azimuths_.size()) / (2.0F * std::numbers::pi_v<float>);
+  const Way way({receivers.x[lane], receivers.y[lane], receivers.z[lane]}, cosine[higher], sine[higher],
+                is_here ? per_angle : -per_angle);
+  BorderOnWay border(way, ends, higher_slope, lower_slope);
+  if (!border.go_along(edge)) return {};
+  const float correction = mean_sky(border, sky, lower_slope, higher_sky) - half * (higher_sky + lower_sky);
+  // (3) One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own
+  return {correction, correction > 0.0F ? higher : lower};
 }
 
 }  // namespace farlod

@@ -47,13 +47,14 @@ class HorizonJumps {
     float sky = 0.0F;
     std::size_t azimuth = 0;
   };
-  [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
-                                         const ReceiverPacket& receivers, const BorderEnds& ends) const;
-  /// The share of the way from one azimuth to the next for which the edge at `higher`, one of them, is the horizon of a receiver.
-  /// An edge that goes on at its end with another one, above `lower_slope` and between the two azimuths, ends with that.
-  /// Half of the way where the end is not between them.
-  [[nodiscard]] float share_of(std::size_t higher, float towards, std::int32_t number, float lower_slope, const Point3f& receiver,
-                               const BorderEnds& ends) const;
+  struct Seen {
+    const PacketHorizon& horizon;
+    SkyWeight weight;
+    const ReceiverPacket& receivers;
+    const BorderEnds& ends;
+    float least;
+  };
+  [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const;
 
   const AzimuthSampling& azimuths_;
   // Working memory, kept from packet to packet

@@ -70,6 +70,8 @@ class SortedTurns {
     for (std::size_t k = 0; k < turns.size(); ++k) turns_.emplace_back(turns[k], k);
     std::sort(turns_.begin(), turns_.end());
   }
+  /// The mean angle from one to the next.
+  [[nodiscard]] Angle apart() const { return Angle::radians(2.0 * pi / static_cast<double>(turns_.size())); }
   struct Neighbor {
     std::size_t azimuth = 0;
     double share = 0.0;
@@ -114,14 +116,6 @@ void add_sun(const SunPosition& sun, double energy, const SortedTurns& turns, Pa
   }
 }
 
-void add_direct(const LightInterval& interval, double energy, const SortedTurns& turns, Parts& parts) {
-  double hours_of_sun = 0.0;
-  for (const SunPosition& sun : interval.sun) hours_of_sun += sun.elevation.radians() > 0.0 ? sun.hours : 0.0;
-  if (!(energy > 0.0) || !(hours_of_sun > 0.0)) return;
-  for (const SunPosition& sun : interval.sun)
-    if (sun.elevation.radians() > 0.0) add_sun(sun, energy * sun.hours / hours_of_sun, turns, parts);
-}
-
 void add(const Parts& more, Parts& parts) {
   for (std::size_t n = 0; n < parts.size(); ++n) {
     parts[n].along += more[n].along;
@@ -139,6 +133,86 @@ Amounts in_kwh_m2(const LightInterval& interval) {
 }
 Amounts in_lux_hours(const LightInterval& interval) {
   return {interval.direct_normal_lux.value_or(0.0) * interval.hours, interval.diffuse_lux.value_or(0.0) * interval.hours};
+}
+
+auto end_of(const LightInterval& interval) {
+  return interval.begin +
+         std::chrono::round<std::chrono::seconds>(std::chrono::duration<double, std::ratio<3600>>(interval.hours));
+}
+
+/// A position of the sun, and its energy on a plane that faces it.
+struct SunLight {
+  SunPosition sun;
+  double energy = 0.0;
+  bool goes_on = false;  ///< from the position before
+};
+/// Those of intervals, where the sun is up.
+std::vector<SunLight> suns_of(std::span<const LightInterval* const> intervals, Measure measure) {
+  std::vector<SunLight> suns;
+  const LightInterval* before = nullptr;
+  for (const LightInterval* const interval : intervals) {
+    double hours_of_sun = 0.0;
+    for (const SunPosition& sun : interval->sun) hours_of_sun += sun.elevation.radians() > 0.0 ? sun.hours : 0.0;
+    if (!(hours_of_sun > 0.0)) continue;
+    const double energy = measure(*interval).direct_normal;
+    bool goes_on = before != nullptr && interval->begin == end_of(*before);
+    for (const SunPosition& sun : interval->sun) {
+      if (sun.elevation.radians() <= 0.0) continue;
+      suns.push_back({sun, energy * sun.hours / hours_of_sun, goes_on});
+      goes_on = true;
+    }
+    before = interval;
+  }
+  return suns;
+}
+
+/// The sun's way between its positions, one after the other.
+class WayOfSun {
+ public:
+  explicit WayOfSun(std::span<const SunLight> suns) : suns_(suns) {}
+
+  /// The sun from halfway after the position before to halfway to the next one, at places that are no farther apart than this: an
+  /// edge that it passes there would else be passed at once.
+  [[nodiscard]] std::vector<SunPosition> around(std::size_t n, Angle most_apart) const {
+    const Step to_next = step(n), before = n > 0 && !step(n - 1).is_none() ? step(n - 1) : to_next,
+               after = to_next.is_none() ? before : to_next;
+    const double parts = std::ceil(std::max(before.longest_rad(), after.longest_rad()) / most_apart.radians());
+    const auto count = static_cast<std::size_t>(std::clamp(parts, 1.0, most_parts));
+    std::vector<SunPosition> places(count, suns_[n].sun);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double on = (static_cast<double>(k) + 0.5) / static_cast<double>(count) - 0.5;
+      const Step& way = on < 0.0 ? before : after;
+      places[k].azimuth = places[k].azimuth + Angle::radians(on * way.azimuth_rad);
+      places[k].elevation = places[k].elevation + Angle::radians(on * way.elevation_rad);
+    }
+    return places;
+  }
+
+ private:
+  static constexpr double most_parts = 16.0;
+  struct Step {
+    double azimuth_rad = 0.0, elevation_rad = 0.0;
+    [[nodiscard]] double longest_rad() const { return std::max(std::abs(azimuth_rad), std::abs(elevation_rad)); }
+    [[nodiscard]] bool is_none() const { return azimuth_rad == 0.0 && elevation_rad == 0.0; }
+  };
+  /// From a position to the next one. None where it does not go on.
+  [[nodiscard]] Step step(std::size_t n) const {
+    if (n + 1 >= suns_.size() || !suns_[n + 1].goes_on) return {};
+    const SunPosition &here = suns_[n].sun, &next = suns_[n + 1].sun;
+    return {std::remainder((next.azimuth - here.azimuth).radians(), 2.0 * pi), (next.elevation - here.elevation).radians()};
+  }
+
+  std::span<const SunLight> suns_;
+};
+
+void add_direct(std::span<const SunLight> suns, const SortedTurns& turns, Parts& parts) {
+  const Angle apart = std::min(turns.apart(), Angle::degrees(0.3));
+  const WayOfSun way(suns);
+  for (std::size_t n = 0; n < suns.size(); ++n) {
+    if (!(suns[n].energy > 0.0)) continue;
+    const std::vector<SunPosition> places = way.around(n, apart);
+    for (const SunPosition& sun : places) add_sun(sun, suns[n].energy / static_cast<double>(places.size()), turns, parts);
+  }
 }
 
 /// The sky of some intervals.
@@ -162,9 +236,8 @@ void add_interval(const LightInterval& interval, double diffuse, SkyOfIntervals&
 /// Whether an interval follows a sky, by day, and is with it no longer than a quarter of an hour.
 bool goes_on(const SkyOfIntervals& sky, const LightInterval& interval) {
   constexpr double longest_h = 0.25 + 1e-6;
-  const auto end =
-      sky.mean.begin + std::chrono::round<std::chrono::seconds>(std::chrono::duration<double, std::ratio<3600>>(sky.mean.hours));
-  return interval.begin == end && sky.mean.hours + interval.hours <= longest_h && has_sun(sky.mean) && has_sun(interval);
+  return interval.begin == end_of(sky.mean) && sky.mean.hours + interval.hours <= longest_h && has_sun(sky.mean) &&
+         has_sun(interval);
 }
 
 /// The skies of intervals, those of a quarter of an hour together: steps of minutes are too fine for the bins of the grid, which
@@ -206,8 +279,7 @@ DirectAndDiffuse light_of(const Light& light, std::span<const double> turns, Mea
   const std::size_t size = turns.size() * LightTable::last_knot;
   DirectAndDiffuse result{Parts(size), Parts(size)};
   const SortedTurns sorted(turns);
-  for (const LightInterval* const interval : intervals)
-    add_direct(*interval, measure(*interval).direct_normal, sorted, result.direct);
+  add_direct(suns_of(intervals, measure), sorted, result.direct);
   const SkyGrid sky = sky_of(intervals, light.sky_model, measure);
   add_sky(
       turns, sky.on_level(), [&](double turn, Angle at) { return sky.radiance(turn, at); }, result.diffuse);

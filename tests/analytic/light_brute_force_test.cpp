@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "evaluate/light_of_little_sky.hpp"
 #include "scene/ray_scenes.hpp"
 #include "tests/analytic/packed_around.hpp"
 #include "tests/scenes/light_by_rays.hpp"
@@ -33,27 +37,30 @@ void add_town(scenes::SceneBuilder& builder) {
   }
 }
 
-/// Days of mean declinations at 48° north, half of the hours clear.
-Light year_of_light() {
+/// The sun at an hour of a day, at 48° north.
+SunPosition sun_at(int day, double hour, double hours) {
+  const double latitude = 48.0 * pi / 180.0;
+  const double declination = -23.44 * pi / 180.0 * std::cos(2.0 * pi * (day + 10) / 365.0);
+  const double turn = 2.0 * pi * (hour - 12.0) / 24.0;
+  const double up = std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(turn);
+  const double west = std::cos(declination) * std::sin(turn),
+               south = std::sin(latitude) * std::cos(declination) * std::cos(turn) - std::cos(latitude) * std::sin(declination);
+  return {Angle::radians(std::atan2(-west, -south)), Angle::radians(std::asin(up)), hours};
+}
+
+/// Days of mean declinations, half of the hours clear.
+Light year_of_light(int positions_in_hour = 12) {
   Light light{{}, SkyModel::perez, 0.0, 0.0};
   light.by_month = true;
-  const double latitude = 48.0 * pi / 180.0;
   for (int day = 0; day < 365; ++day)
     for (int hour = 4; hour < 20; ++hour) {
       LightInterval interval{{}, 1.0};
-      for (int part = 0; part < 12; ++part) {
-        const double declination = -23.44 * pi / 180.0 * std::cos(2.0 * pi * (day + 10) / 365.0);
-        const double turn = 2.0 * pi * (hour + (part + 0.5) / 12.0 - 12.0) / 24.0;
-        const double up =
-            std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(turn);
-        const double west = std::cos(declination) * std::sin(turn),
-                     south =
-                         std::sin(latitude) * std::cos(declination) * std::cos(turn) - std::cos(latitude) * std::sin(declination);
-        if (up > 0.0)
-          interval.sun.push_back({Angle::radians(std::atan2(-west, -south)), Angle::radians(std::asin(up)), 1.0 / 12.0});
+      for (int part = 0; part < positions_in_hour; ++part) {
+        const SunPosition sun = sun_at(day, hour + (part + 0.5) / positions_in_hour, 1.0 / positions_in_hour);
+        if (sun.elevation.radians() > 0.0) interval.sun.push_back(sun);
       }
-      if (interval.sun.empty()) continue;
-      const double up = sin(interval.sun[interval.sun.size() / 2].elevation);
+      const double up = sin(sun_at(day, hour + 0.5, 1.0).elevation);
+      if (interval.sun.empty() || up <= 0.0) continue;
       const bool is_clear = (day * 7 + hour / 3) % 2 == 0;
       interval.direct_normal_w_m2 = is_clear ? 950.0 * std::exp(-0.18 / std::max(up, 0.05)) : 60.0 * up;
       interval.diffuse_w_m2 = is_clear ? 30.0 + 90.0 * up : 20.0 + 330.0 * up;
@@ -83,7 +90,7 @@ void expect_the_light_of_rays(const PackageReader& package, Engine engine, const
   const WholeCityOnDemand city(package, {});
   const std::size_t columns = columns_of(quantities).size();
   std::vector<float> svf(receivers.receivers.size()), values(svf.size() * columns);
-  const SkySettings settings{.engine = engine, .further = quantities};
+  const SkySettings settings{.engine = engine, .rays = 20000, .further = quantities};
   SkyEvaluator(package, settings).evaluate(receivers, SkyAnswers(svf, {}, {}, values));
   for (const Receiver& r : receivers.receivers) {
     const scenes::LightByRays::Months months =
@@ -101,7 +108,7 @@ void expect_the_light_of_rays(const PackageReader& package, Engine engine, const
 TEST(IrradiationOfAYear, IsThatOfEachHourAndRay) {
   const PackedAround packed(Angle::degrees(20.0), add_town);
   const Light light = year_of_light();
-  const scenes::LightByRays judge(light, 10000, packed.package().grid().rotation);
+  const scenes::LightByRays judge(year_of_light(60), 10000, packed.package().grid().rotation);
   expect_the_light_of_rays(packed.package(), Engine::automatic, {.light = light, .irradiation = true},
                            packed.receivers_on_square(normals_of_receivers()), judge, "without crowns");
 }
@@ -111,11 +118,52 @@ TEST(IrradiationOfAYear, ThroughCrownsIsThatOfEachHourAndRay) {
   packed.plant(scenes::random_crowns(packed.package(), 60));
   ASSERT_TRUE(packed.package().has_crowns());
   const Light light = year_of_light();
-  const scenes::LightByRays judge(light, 10000, packed.package().grid().rotation);
+  const scenes::LightByRays judge(year_of_light(60), 10000, packed.package().grid().rotation);
   for (const auto& [word, rule] : canopy_rule_words)
     for (const Engine engine : {Engine::automatic, Engine::exact})
       expect_the_light_of_rays(packed.package(), engine, {.light = light, .irradiation = true, .canopy = {.rule = rule}},
                                packed.receivers_on_square(normals_of_receivers()), judge, std::string(word));
+}
+
+/// A passage of .8 m between two rows of boxes of other lengths.
+void add_passage(scenes::SceneBuilder& builder) {
+  double y = -60.0;
+  for (int n = 0; n < 12; ++n) {
+    const double edge = 7.0 + 1.3 * (n % 4), height_m = 24.0 + 3.0 * (n % 5);
+    builder.add_box({{-20.0, y}, {-0.4, y + edge}}, -1.5, height_m);
+    builder.add_box({{0.4, y + 1.0}, {18.0, y + edge}}, -1.5, 48.0 - height_m);
+    y += edge;
+  }
+}
+
+TEST(IrradiationOfAYear, OfLittleSkyIsThatOfMoreAzimuths) {
+  const PackedAround packed(Angle::degrees(0.0), add_passage);
+  const Light light = year_of_light();
+  const Quantities quantities{.light = light, .irradiation = true};
+  const std::size_t columns = columns_of(quantities).size();
+  CellReceivers receivers{{0, 0}, {}};
+  const auto middle = static_cast<float>(0.5 * packed_cell_edge_m);
+  const auto z = static_cast<float>(packed_eye_m - packed.package().manifest().height_origin_m);
+  for (std::size_t n = 0; n < 9; ++n)
+    receivers.receivers.push_back(
+        {n, {middle - 0.2F + 0.05F * static_cast<float>(n), middle + static_cast<float>(n), z}, {0, 0, 1}});
+  // One above the roofs sees more
+  receivers.receivers.push_back({9, {middle, middle, z + 50.0F}, {0, 0, 1}});
+  const auto evaluated = [&](std::size_t azimuths) {
+    std::vector<float> svf(10), values(10 * columns);
+    SkyEvaluator(packed.package(), {.azimuths = azimuths, .further = quantities})
+        .evaluate(receivers, SkyAnswers(svf, {}, {}, values));
+    return std::pair(svf, values);
+  };
+  const auto [svf, few] = evaluated(320);
+  const std::vector<float> more = evaluated(LightOfLittleSky::azimuths).second;
+  for (std::size_t n = 0; n < 10; ++n) {
+    ASSERT_EQ(svf[n] < LightOfLittleSky::little_svf, n < 9) << n << ": " << svf[n];
+    const bool are_alike = std::equal(few.begin() + static_cast<std::ptrdiff_t>(n * columns),
+                                      few.begin() + static_cast<std::ptrdiff_t>((n + 1) * columns),
+                                      more.begin() + static_cast<std::ptrdiff_t>(n * columns));
+    EXPECT_EQ(are_alike, n < 9) << n;
+  }
 }
 
 }  // namespace

@@ -28,6 +28,17 @@ std::vector<Point3d> fibonacci_hemisphere(std::size_t count) {
   return directions;
 }
 
+/// A place on the sun's disk, another one for each number.
+Point3d on_disk(const SunPosition& sun, std::size_t number) {
+  constexpr double radius_deg = 0.2666;
+  const double n = static_cast<double>(number);
+  const double from_middle_deg = radius_deg * std::sqrt(std::fmod(n * 0.7548776662466927 + 0.5, 1.0)),
+               turn = 2.0 * std::numbers::pi * std::fmod(n * 0.5698402909980532 + 0.5, 1.0);
+  const Angle up = Angle::degrees(from_middle_deg * std::sin(turn)),
+              aside = Angle::degrees(from_middle_deg * std::cos(turn) / std::max(0.01, cos(sun.elevation)));
+  return towards(sun.azimuth + aside, sun.elevation + up);
+}
+
 Point3d turned_back(const Point3d& d, Angle convergence) {
   return {d.x * cos(convergence) - d.y * sin(convergence), d.x * sin(convergence) + d.y * cos(convergence), d.z};
 }
@@ -73,7 +84,8 @@ void LightByRays::add_sun(const Light& light, const GridRotation& rotation, Angl
     double hours = 0.0;
     for (const SunPosition& sun : interval.sun) hours += sun.hours;
     for (const SunPosition& sun : interval.sun) {
-      Ray ray{rotation.grid_from_city(turned_back(towards(sun.azimuth, sun.elevation), convergence)), Months{}};
+      const Point3d to_sun = on_disk(sun, rays_.size());
+      Ray ray{rotation.grid_from_city(turned_back(to_sun, convergence)), Months{}};
       ray.of_month[interval.month - 1] = energy * sun.hours / hours;
       if (energy > 0.0) rays_.push_back(ray);
     }

@@ -255,9 +255,12 @@ struct Walls {
 struct Answers {
   double even, placed;
 };
-Answers answers_of(const std::vector<HorizonEdge>& edges, std::size_t azimuths) {
+Answers answers_of(const std::vector<HorizonEdge>& edges, std::size_t azimuths, const Point3f& normal = {0.0F, 0.0F, 1.0F}) {
   const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
-  const ReceiverPacket receiver = packet_of(std::vector{Point3f{}});
+  ReceiverPacket receiver = packet_of(std::vector{Point3f{}});
+  receiver.normal_x[0] = normal.x;
+  receiver.normal_y[0] = normal.y;
+  receiver.normal_z[0] = normal.z;
   SilhouetteEdges silhouettes = silhouettes_of(edges);
   const SilhouetteEdges* const list = &silhouettes;
   const BorderEnds ends({&list, 1});
@@ -305,6 +308,34 @@ TEST(HorizonJumps, AWallThatGoesOnRoundACornerEndsWithWhatGoesOn) {
   });
   EXPECT_GT(largest.even, 0.4 / azimuths);
   EXPECT_LT(largest.placed, 0.1 / azimuths);
+}
+
+TEST(HorizonJumps, AWallThatGoesOnInManyPiecesEndsWithTheLast) {
+  constexpr std::size_t azimuths = 64;
+  // The pieces are narrower than the distance of two azimuths, all together
+  const LargestErrors largest = largest_errors(azimuths, [](double by) {
+    return Walls{{at(10.0 + by, 20.0), at(50.0 + by, 20.0), at(51.0 + by, 20.2), at(52.0 + by, 20.5), at(53.5 + by, 21.0)}, 60.0};
+  });
+  EXPECT_GT(largest.even, 0.4 / azimuths);
+  EXPECT_LT(largest.placed, 0.1 / azimuths);
+}
+
+TEST(HorizonJumps, AWallThatGoesOnFarAwayIsSeenLower) {
+  constexpr std::size_t azimuths = 64;
+  const LargestErrors largest = largest_errors(azimuths, [](double by) {
+    return Walls{{at(10.0 + by, 20.0), at(50.0 + by, 20.0), at(54.0 + by, 160.0)}, 60.0};
+  });
+  EXPECT_GT(largest.even, 0.3 / azimuths);
+  EXPECT_LT(largest.placed, 0.15 / azimuths);
+}
+
+TEST(HorizonJumps, ATurnOfTheNormalIsNone) {
+  // A straight wall, of one edge or of two, seen by a receiver that looks along it: what it sees changes much from azimuth to
+  // azimuth, but not where the second edge begins
+  const Point3f from{20.0F, -2e4F, 30.0F}, middle{20.0F, 3.0F, 30.0F}, to{20.0F, 2e4F, 30.0F};
+  const Point3f along{0.0F, 1.0F, 0.0F};
+  const Answers whole = answers_of({{from, to}}, 32, along), in_two = answers_of({{from, middle}, {middle, to}}, 32, along);
+  EXPECT_FLOAT_EQ(static_cast<float>(in_two.placed), static_cast<float>(whole.placed));
 }
 
 TEST(HorizonJumps, SmallOnesStayWhereTheyAre) {

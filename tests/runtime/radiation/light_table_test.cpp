@@ -147,6 +147,53 @@ TEST(LightTable, OfTheSunIsTheCosineOfEachPlane) {
   EXPECT_NEAR(above(41.0), 0.5 * above(0.0), 0.05 * above(0.0));
 }
 
+/// An hour around noon, of so many positions of the sun.
+LightInterval hour_of_positions(std::size_t count) {
+  LightInterval interval = hour(180.0, 50.0, 700.0, 0.0);
+  interval.sun.clear();
+  for (std::size_t n = 0; n < count; ++n) {
+    const double on = (static_cast<double>(n) + 0.5) / static_cast<double>(count) - 0.5;
+    interval.sun.push_back(
+        {Angle::degrees(180.0 + 20.0 * on), Angle::degrees(50.0 - 3.0 * on), 1.0 / static_cast<double>(count)});
+  }
+  return interval;
+}
+
+TEST(LightTable, TheSunGoesOnBetweenItsPositions) {
+  // At each azimuth, four positions of an hour tell what sixty do; by themselves they would leave most azimuths without sun
+  const std::vector<double> at = turns();
+  const LightTable few(Light{{hour_of_positions(4)}}, at), many(Light{{hour_of_positions(60)}}, at);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    std::array<LightPair, LightTable::most_pairs> of_few{}, of_many{};
+    few.add_above(k, LightTable::place_of(0.0F), 0.0F, 1.0F, of_few.data());
+    many.add_above(k, LightTable::place_of(0.0F), 0.0F, 1.0F, of_many.data());
+    EXPECT_NEAR(light_of_layer(of_few.data(), direct), light_of_layer(of_many.data(), direct), 0.05 * 0.7 / 18.0) << k;
+  }
+}
+
+TEST(LightTable, TheSunGoesOnFromStepToStepAndNotFromDayToDay) {
+  // Two steps of a quarter of an hour, one after the other or a day apart
+  const std::vector<double> at = turns();
+  const auto steps = [](std::chrono::minutes apart) {
+    LightInterval first = hour(170.0, 40.0, 800.0, 0.0), second = hour(175.0, 40.0, 800.0, 0.0);
+    first.hours = second.hours = first.sun[0].hours = second.sun[0].hours = 0.25;
+    second.begin = first.begin + apart;
+    return Light{{first, second}};
+  };
+  const auto lit_azimuths = [&](const Light& light) {
+    const LightTable table(light, at);
+    std::size_t lit = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      std::array<LightPair, LightTable::most_pairs> sums{};
+      table.add_above(k, LightTable::place_of(0.0F), 0.0F, 1.0F, sums.data());
+      lit += light_of_layer(sums.data(), direct) > 0.0F ? 1 : 0;
+    }
+    return lit;
+  };
+  EXPECT_EQ(lit_azimuths(steps(std::chrono::hours(24))), 4U);  // each between two azimuths
+  EXPECT_GE(lit_azimuths(steps(std::chrono::minutes(15))), 9U);
+}
+
 TEST(LightTable, TheEnergyOfAnHourIsKeptWhileTheSunRises) {
   LightInterval interval = hour(90, 2, 300, 30);
   interval.sun = {{Angle::degrees(88), Angle::degrees(-0.5), 0.5}, {Angle::degrees(90), Angle::degrees(2), 0.5}};
