@@ -19,7 +19,7 @@
 #include "app/picture_options.hpp"
 #include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
-#include "base/machine_memory.hpp"
+#include "console/machine_limit.hpp"
 #include "console/progress.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
@@ -181,7 +181,7 @@ void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const S
   const RunEstimate estimate = *evaluate_raster(
                                     package, plan, options.placing, asked, [](const RasterTile&) {}, quiet)
                                     .estimate;
-  const bool is_refused = !run.memory_limit_mib && is_beyond_machine(estimate.memory_bytes);
+  const bool is_refused = !run.memory_limit_mib && is_refused_by_machine(estimate.memory_bytes);
   if (is_refused) return;
   fmt::print(stderr,
              "{}: about {} and {} of memory in all. A larger --grid or a part (--bbox) takes less; --dry-run tells it alone.\n",

@@ -239,6 +239,14 @@ TEST_F(PackedTown, SolidAngleIsAnotherQuantityUnderAnotherName) {
   EXPECT_LT(table("o.csv").number(0, "svf_solid"), cosine);
 }
 
+TEST_F(PackedTown, FiguresOnTheTerminalHaveTheirUnits) {
+  const Outcome map = folder.run("farlod-svf a.farlod -o o.tif --grid 10 --quantity sunlit,hidden --sun 2026-06-21");
+  EXPECT_THAT(map.out, testing::ContainsRegex("sunlit_h: min [0-9.]+, mean [0-9.]+, max [0-9.]+ h\n"));
+  EXPECT_THAT(map.out, testing::ContainsRegex("hidden_near: min [0-9.]+, mean [0-9.]+, max [0-9.]+\n")) << "a share has none";
+  const Outcome place = folder.run("farlod-svf a.farlod -o o.csv --quantity sunlit --sun 2026-06-21 --at " + text_of(crossing));
+  EXPECT_THAT(place.out, testing::ContainsRegex("svf: 0\\.[0-9]+\nsunlit_h: [0-9.]+ h\n")) << "of one place, one number";
+}
+
 /// What stands between two fences, in the order of the page.
 std::vector<std::string> fenced_blocks(const std::filesystem::path& page) {
   std::ifstream file(page);

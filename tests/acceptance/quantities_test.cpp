@@ -391,14 +391,5 @@ INSTANTIATE_TEST_SUITE_P(Crs, RasterInPlace,
                                          Place{"Degrees", "OGC:CRS84", {-73.96, 40.77}, 1e-5, "EPSG:32618"}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST_F(PackedTown, FiguresOnTheTerminalHaveTheirUnits) {
-  const Outcome map = folder.run("farlod-svf a.farlod -o o.tif --grid 10 --quantity sunlit,hidden --sun 2026-06-21");
-  EXPECT_THAT(map.out, testing::ContainsRegex("sunlit_h: min [0-9.]+, mean [0-9.]+, max [0-9.]+ h\n"));
-  EXPECT_THAT(map.out, testing::ContainsRegex("hidden_near: min [0-9.]+, mean [0-9.]+, max [0-9.]+\n")) << "a share has none";
-  const Outcome place =
-      folder.run("farlod-svf a.farlod -o o.csv --quantity sunlit --sun 2026-06-21 --at " + text_of(middle_crossing));
-  EXPECT_THAT(place.out, testing::ContainsRegex("svf: 0\\.[0-9]+\nsunlit_h: [0-9.]+ h\n")) << "of one place, one number";
-}
-
 }  // namespace
 }  // namespace farlod::acceptance

@@ -134,27 +134,6 @@ TEST(SkyPicture, SaysTheSkyViewFactorRoundedAndWithTrees) {
   EXPECT_EQ(title_of(0.163F), "Sky view factor (svf) 0.6441, with trees 0.1630");
 }
 
-TEST(SkyPicture, ItsLegendNamesTheColoursThatAreThere) {
-  const auto words_of = [](const Hemisphere& hemisphere) {
-    std::vector<std::string> words;
-    for (const auto& shape : draw_sky(hemisphere, SkyProjection::equidistant, {"svf", ""}, {}, {}).shapes)
-      if (const auto* text = std::get_if<Text>(&shape)) words.push_back(text->words);
-    return words;
-  };
-  const auto says = [&](const Hemisphere& hemisphere, const char* words) {
-    const std::vector<std::string> all = words_of(hemisphere);
-    return std::find(all.begin(), all.end(), words) != all.end();
-  };
-  Hemisphere hemisphere = basin_with_a_wall_in_the_east();
-  for (const char* words : {"sky that is seen", "buildings, ground: near", "those far away"})
-    EXPECT_TRUE(says(hemisphere, words)) << words;
-  EXPECT_FALSE(says(hemisphere, "crowns of trees"));
-  for (SkyPart& part : hemisphere.parts)
-    if (part == SkyPart::far) part = SkyPart::crown;
-  EXPECT_TRUE(says(hemisphere, "crowns of trees"));
-  EXPECT_FALSE(says(hemisphere, "those far away"));
-}
-
 TEST(SunInThePicture, HasADotWhereTheSunIsAtEachFullHour) {
   const Picture with = with_sun(longest_day()), without = with_sun({});
   for (const int hour : {11, 12, 14, 15}) {  // above 30° in the south and the west
