@@ -318,7 +318,9 @@ class FootprintLayer {
     HeightsOfFields all = said_;
     for (const auto& [field, heights] : too_high_) {
       // One number that many have means unknown
-      const auto is_first = [&](const plausibility::SaidHeight& h) { return h.height_m == heights.front().height_m; };
+      const auto is_first = [first_m = heights.front().height_m](const plausibility::SaidHeight& h) {
+        return h.height_m == first_m;
+      };
       if (!std::all_of(heights.begin(), heights.end(), is_first))
         all[field].insert(all[field].end(), heights.begin(), heights.end());
     }
