@@ -113,9 +113,9 @@ std::vector<WrongCommand> places_of_nothing() {
       map_with("--grid 20 --merge", {"there is nothing to merge into o.asc"}),
       unusable_file("farlod-pack --merge -o b.farlod", {"there is nothing to merge into b.farlod"}),
 #ifdef FARLOD_WITH_GDAL
-      map_with(
-          "--grid 20 --bbox 9.5,50.1,9.6,50.2",
-          {"The city lies from", "In degrees (longitude, latitude), --bbox goes from 9.5000, 50.1000", "and the city from 8.9998"}),
+      map_with("--grid 20 --bbox 9.5,50.1,9.6,50.2",
+               {"The city lies from", "In degrees (longitude, latitude), --bbox goes from 9.5000, 50.1000",
+                "and the city from 8.9998"}),
       map_with("--grid 20 --bbox 9.5,50.1,9.6,50.2 --dry-run", {"In degrees"}),
       map_with("--grid 20 --bbox 139.6,35.9,139.7,36.0", {"In degrees", "from 139.6000, 35.9000", "and the city from 8.9998"}),
       map_with("--grid-like far.asc", {"No receiver has an answer", "check --grid-like"}),
