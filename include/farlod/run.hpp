@@ -24,8 +24,8 @@ struct Progress {
 /// How a run is carried out. Nothing here changes an answer.
 struct RunSettings {
   std::size_t threads = 0;  ///< 0: as many as the machine has cores; 4,096 at the most
-  /// An evaluation that would need more ends with LimitReached before its long work. A packing keeps the resident memory of the
-  /// process, mapped files included, below it, and ends with LimitReached where it cannot. No limit if empty.
+  /// An evaluation that would need more ends with LimitReached before its long work; if empty, one that would need 1.2 times the
+  /// memory of the machine. A packing keeps the resident memory of the process, mapped files included, below it, or ends so.
   std::optional<std::uint64_t> memory_limit_mib;
   /// What the caller holds of the results himself, counted against the limit.
   std::uint64_t caller_bytes = 0;

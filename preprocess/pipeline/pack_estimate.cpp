@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "base/machine_memory.hpp"
 #include "base/paging/memory_bound.hpp"
 #include "base/paging/pages.hpp"
 #include "farlod/error.hpp"
@@ -179,8 +181,26 @@ PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, cons
   return e;
 }
 
+namespace {
+
+/// Within a limit, the same is packed with less memory, and slower.
+void require_less_than_machine(const PackEstimate& estimate, double least_mib) {
+  constexpr double share_of_machine = 0.8;
+  const std::optional<double> machine_bytes = machine_memory_bytes();
+  if (!machine_bytes || !is_beyond_machine(estimate.memory_mib * bytes_per_mib)) return;
+  const double machine_mib = *machine_bytes / bytes_per_mib;
+  throw LimitReached("Packing into " + std::to_string(estimate.cells) + " cells takes about " +
+                     std::to_string(std::llround(estimate.memory_mib)) + " MiB, and this machine has " +
+                     std::to_string(std::llround(machine_mib)) + " MiB: --memory-limit " +
+                     std::to_string(std::llround(std::max(least_mib, share_of_machine * machine_mib))) +
+                     " packs the same within that, or pack fewer inputs at a time.");
+}
+
+}  // namespace
+
 void require_memory(const PackEstimate& estimate, const RunSettings& run) {
   const double least_mib = std::ceil(estimate.least_memory_mib + static_cast<double>(run.caller_bytes) / bytes_per_mib);
+  if (!run.memory_limit_mib) require_less_than_machine(estimate, least_mib);
   if (!run.memory_limit_mib || least_mib <= static_cast<double>(*run.memory_limit_mib)) return;
   throw LimitReached("Packing into " + std::to_string(estimate.cells) + " cells needs at least " +
                      std::to_string(std::llround(least_mib)) + " MiB, more than --memory-limit " +

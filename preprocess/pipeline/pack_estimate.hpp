@@ -56,7 +56,8 @@ struct CanopyLoad {
                                          const Grid& grid, FarMapKind far_map, const CanopyLoad& canopy, std::size_t threads,
                                          std::optional<std::uint64_t> far_maps = {});
 
-/// Throws LimitReached, whose message says what would do, when the limit cannot be kept.
+/// Throws LimitReached, whose message says what would do, when the limit cannot be kept; without one, when the machine has
+/// clearly less memory than packing takes (is_beyond_machine).
 void require_memory(const PackEstimate& estimate, const RunSettings& run);
 
 }  // namespace farlod::pipeline

@@ -235,18 +235,22 @@ WrittenRun write(const Package& package, const SvfOptions& options, const RunSet
 }
 
 /// What was kept of a run that has no answers is not worth to go on with.
-WrittenRun write_or_forget(const Package& package, const SvfOptions& options, const RunSettings& run, KeptWork& kept) {
+WrittenRun write_or_forget(const Package& package, const SvfOptions& options, const RunSettings& run, KeptWork& kept,
+                           const std::optional<BoxInDegrees>& box) {
   try {
-    return write(package, options, run);
-  } catch (const NoAnswer&) {
+    WrittenRun written = write(package, options, run);
+    if (options.evaluation.dry_run) require_answers(written.summary, options, package.description());
+    return written;
+  } catch (const NoAnswer& error) {
     kept.finish();
-    throw;
+    if (!box) throw;
+    throw NoAnswer(error.what() + box->beside);
   }
 }
 
 /// With what is to be told of a box in degrees, if there is one.
-void add_light(const std::optional<PeriodLight>& light, const std::optional<std::string>& note_of_box, WrittenRun& written) {
-  if (note_of_box) written.notes.insert(written.notes.begin(), *note_of_box);
+void add_light(const std::optional<PeriodLight>& light, const std::optional<BoxInDegrees>& box, WrittenRun& written) {
+  if (box && !box->note.empty()) written.notes.insert(written.notes.begin(), box->note);
   written.light = light;
   if (!light) return;
   const std::vector<std::string> notes = notes_of(*light);
@@ -273,7 +277,7 @@ WrittenRun evaluate(SvfOptions options) {
   const Package package(options.package);
   const double open_s = seconds_since(start);
   require_buildings_for(options, package);
-  const std::optional<std::string> note_of_box = take_degrees_of_bbox(options, package.description());
+  const std::optional<BoxInDegrees> box = take_degrees_of_bbox(options, package.description());
   options.evaluation.region = region_of_package(options, package.description());
   const std::optional<PeriodLight> light = place_light(package, options);
   add_quantities_for(inventory_of(package).crowns.all() > 0, options);
@@ -281,14 +285,13 @@ WrittenRun evaluate(SvfOptions options) {
   KeptWork kept(options, package.description());
   RunSettings run = run_settings(options, progress);
   kept.tell(run);
-  WrittenRun written = write_or_forget(package, options, run, kept);
-  written.further_columns = columns_of(options.evaluation.further);
+  WrittenRun written = write_or_forget(package, options, run, kept, box);
+  written.further_columns = column_descriptions_of(options.evaluation.further);
   written.open_s = open_s;
-  add_light(light, note_of_box, written);
+  add_light(light, box, written);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   add_notes_of_package(package, options, written);
   if (options.shard) kept.finish();
-  if (options.evaluation.dry_run) require_answers(written.summary, options, package.description());
   if (!options.writes()) return written;
   if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);
   if (options.verify_format != nullptr) write_verification(package, options, run.threads, written);

@@ -62,22 +62,41 @@ std::optional<Box2d> projected_from_degrees(const Box2d& degrees, const PackageD
   return is_near ? std::optional(box) : std::nullopt;
 }
 
+/// Where the box and the city lie, for somebody who thinks in degrees.
+std::string both_in_degrees(const Box2d& given, const PackageDescription& package) {
+  Box2d city;
+#ifdef FARLOD_WITH_GDAL
+  const auto [low, high] = package.city_projected;
+  const std::vector<Point2d> corners{low, {high.x, low.y}, high, {low.x, high.y}};
+  for (const Point2d p : gdal_files().reprojected_each(corners, package.crs_wkt, "OGC:CRS84"))
+    if (std::isfinite(p.x) && std::isfinite(p.y)) city.add(p);
+#endif
+  const auto text_of = [](const Box2d& box) {
+    return fmt::format("from {:.4f}, {:.4f} to {:.4f}, {:.4f}", box.low.x, box.low.y, box.high.x, box.high.y);
+  };
+  if (city.empty()) return {};
+  return fmt::format(" In degrees (longitude, latitude), --bbox goes {}, and the city {}.", text_of(given), text_of(city));
+}
+
 }  // namespace
 
-std::optional<std::string> take_degrees_of_bbox(SvfOptions& options, const PackageDescription& package) {
+std::optional<BoxInDegrees> take_degrees_of_bbox(SvfOptions& options, const PackageDescription& package) {
   if (!options.bbox_projected || !may_be_degrees(*options.bbox_projected) || is_near_city(*options.bbox_projected, package))
     return std::nullopt;
-  const auto [low, high] = *options.bbox_projected;
-  const std::string given = fmt::format("{:.10g}, {:.10g}, {:.10g}, {:.10g}", low.x, low.y, high.x, high.y);
-  if (const std::optional<Box2d> box = projected_from_degrees({low, high}, package)) {
+  const Box2d degrees = *options.bbox_projected;
+  const std::string given =
+      fmt::format("{:.10g}, {:.10g}, {:.10g}, {:.10g}", degrees.low.x, degrees.low.y, degrees.high.x, degrees.high.y);
+  if (const std::optional<Box2d> box = projected_from_degrees(degrees, package)) {
     options.bbox_projected = box;
-    return fmt::format("--bbox {} was taken for longitude and latitude (WGS 84): {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}.", given,
-                       box->low.x, box->low.y, box->high.x, box->high.y, package.crs_name);
+    return BoxInDegrees{
+        fmt::format("--bbox {} was taken for longitude and latitude (WGS 84): {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}.", given,
+                    box->low.x, box->low.y, box->high.x, box->high.y, package.crs_name),
+        both_in_degrees(degrees, package)};
   }
-  const Box2d exchanged{{low.y, low.x}, {high.y, high.x}};
+  const Box2d exchanged{{degrees.low.y, degrees.low.x}, {degrees.high.y, degrees.high.x}};
   if (may_be_degrees(exchanged) && projected_from_degrees(exchanged, package))
     throw PointsError("--bbox " + given + " lies more than 100 km from the city: give the longitude before the latitude.");
-  return std::nullopt;
+  return BoxInDegrees{{}, both_in_degrees(degrees, package)};
 }
 
 std::shared_ptr<const Region> region_of_package(const SvfOptions& options, const PackageDescription& package) {

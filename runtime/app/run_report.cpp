@@ -13,6 +13,8 @@
 #include "app/quantity_options.hpp"
 #include "console/progress.hpp"
 #include "farlod/evaluation.hpp"
+#include "farlod/quantities.hpp"
+#include "results/picture/value_scale.hpp"
 
 namespace farlod {
 namespace {
@@ -27,7 +29,9 @@ std::string mean_near_buildings(const EvaluationSummary& run) {
 }
 
 void print_values(const EvaluationSummary& run, const std::string& quantity) {
-  if (run.svf_mean)
+  if (run.svf_mean && run.receivers == 1)
+    fmt::print("{}: {:.4f}\n", quantity, *run.svf_mean);
+  else if (run.svf_mean)
     fmt::print("{}: min {:.4f}, mean {:.4f}, median {:.3f}, max {:.4f}{}\n", quantity, *run.svf_min, *run.svf_mean,
                *run.svf_median, *run.svf_max, mean_near_buildings(run));
   if (run.svf_mean && *run.svf_min == *run.svf_max && run.receivers > 100)
@@ -39,10 +43,16 @@ void print_further(const WrittenRun& written) {
   constexpr std::size_t most_columns = 12;
   const std::vector<std::optional<ValueRange>>& ranges = written.summary.further;
   if (ranges.size() > most_columns) return;
-  for (std::size_t k = 0; k < ranges.size(); ++k)
-    if (ranges[k])
-      fmt::print("{}: min {:.4g}, mean {:.4g}, max {:.4g}\n", written.further_columns[k], ranges[k]->min, ranges[k]->mean,
-                 ranges[k]->max);
+  const std::vector<ColumnDescription>& columns = written.further_columns;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (!ranges[k]) continue;
+    const std::string sign = sign_of_unit(columns[k].unit), unit = (sign.empty() ? "" : " ") + sign;
+    if (written.summary.receivers == 1)
+      fmt::print("{}: {:.4g}{}\n", columns[k].name, ranges[k]->mean, unit);
+    else
+      fmt::print("{}: min {:.4g}, mean {:.4g}, max {:.4g}{}\n", columns[k].name, ranges[k]->min, ranges[k]->mean, ranges[k]->max,
+                 unit);
+  }
 }
 
 void print_errors(const char* of_what, const ErrorSummary& e) {
@@ -93,20 +103,26 @@ const char* reason_of_no_data(ReceiverSource source) {
                                             : "inside buildings or without ground";
 }
 
+/// Why pixels or points were not asked for, though the extent holds them.
+std::string reason_of_left_out(const SvfOptions& options) {
+  if (!options.evaluation.within_m) return "outside of the mask or box";
+  const std::string farther = fmt::format("farther than {:g} m from buildings", *options.evaluation.within_m);
+  return options.mask_file.empty() ? farther : "outside of the mask, or " + farther;
+}
+
 void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
   const EvaluationSummary& run = written.summary;
   const EvaluationSettings& asked = options.evaluation;
   fmt::print("{}, {:.1f} s in all; no data: {} {}", counted(run.receivers), total_s, run.no_data,
              reason_of_no_data(options.source));
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
-  if (run.outside_of_region > 0)
-    fmt::print("; {} outside of the mask or box{}", run.outside_of_region, asked.within_m ? ", or farther from buildings" : "");
+  if (run.outside_of_region > 0) fmt::print("; {} {}", run.outside_of_region, reason_of_left_out(options));
   fmt::print("\n");
   print_values(run, quantity_name(asked.weight));
   print_further(written);
   if (run.outside_of_grid > 0)
-    fmt::print("{} {} outside of the grid, where there are no far maps: horizons or rays of the whole city answered {}.\n",
-               counted(run.outside_of_grid), lie(run.outside_of_grid), them(run.outside_of_grid));
+    fmt::print("{} around the grid of cells {} answered by horizons or rays of the whole city: only cells have far maps.\n",
+               counted(run.outside_of_grid), run.outside_of_grid == 1 ? "was" : "were");
   if (run.without_far_map > 0)
     fmt::print("{} {} in cells without a far map: rays against the whole city answered {}. farlod-pack --area adds far maps.\n",
                counted(run.without_far_map), lie(run.without_far_map), them(run.without_far_map));

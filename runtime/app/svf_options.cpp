@@ -187,7 +187,7 @@ void add_limit_options(CLI::App& app, SvfOptions& o) {
                "Write nothing, and tell what the run would take: receivers, memory, time and disk, from some of its cells")
       ->group("Run");
   app.add_option("--memory-limit", o.memory_limit_mib,
-                 "Refuse to begin when the run needs more than this many MiB (default: no limit)")
+                 "Refuse to begin when the run needs more than this many MiB (default: 1.2 times what the machine has)")
       ->check(between(1, 1 << 30))
       ->group("Run");
 }

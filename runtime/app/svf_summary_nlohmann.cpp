@@ -96,11 +96,11 @@ Json values_json(const EvaluationSummary& run) {
 
 void add_further(const WrittenRun& written, Json& j) {
   if (written.matrix) j["matrix"] = json_of(*written.matrix);
-  if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
+  for (const ColumnDescription& column : written.further_columns) j["quantities"].push_back(column.name);
   const auto& ranges = written.summary.further;
   for (std::size_t k = 0; k < ranges.size(); ++k)
     if (const auto& range = ranges[k])
-      j["values"][written.further_columns[k]] = {{"min", range->min}, {"mean", range->mean}, {"max", range->max}};
+      j["values"][written.further_columns[k].name] = {{"min", range->min}, {"mean", range->mean}, {"max", range->max}};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "app/picture_options.hpp"
 #include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
+#include "console/machine_limit.hpp"
 #include "console/progress.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
@@ -132,7 +133,8 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
   if (options.own_pixels) {
     const RasterPlan plan = *plan_of_surface_model(package, extent_of(options));
     notes.push_back(fmt::format(
-        "The city is a raster: its own pixels, {} × {} of {:g} m, are answered. Beyond it, only a far terrain hides the sky.",
+        "The city is a raster: its own pixels, {} × {} of {:g} m, are answered. Of what lies around the raster, nothing but a "
+        "--far-terrain is known: at its margin, values are those of an open surrounding.",
         plan.columns, plan.rows, plan.step_m));
     return plan;
   }
@@ -151,7 +153,8 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
 void add_notes_of_kit(const Package& package, const SvfOptions& options, std::vector<std::string>& notes) {
   if (!options.format->is_solweig_kit) return;
   if (plan_of_surface_model(package))
-    notes.emplace_back("The city is a surface model, which knows no ground of its own: there is no dem.tif.");
+    notes.emplace_back(
+        "The city is a surface model, which knows no ground of its own: there is no dem.tif, and SOLWEIG takes yours.");
   else if (options.placing.above == HeightAbove::ground)
     notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
 }
@@ -168,6 +171,7 @@ void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const S
     notes.push_back(what + ".");
     return;
   }
+  if (options.run.verbosity != Verbosity::normal) return;
   EvaluationSettings asked = options.evaluation;
   asked.dry_run = true;
   RunSettings quiet = run;
@@ -177,7 +181,8 @@ void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const S
   const RunEstimate estimate = *evaluate_raster(
                                     package, plan, options.placing, asked, [](const RasterTile&) {}, quiet)
                                     .estimate;
-  if (options.run.verbosity != Verbosity::normal) return;
+  const bool is_refused = !run.memory_limit_mib && is_refused_by_machine(estimate.memory_bytes);
+  if (is_refused) return;
   fmt::print(stderr,
              "{}: about {} and {} of memory in all. A larger --grid or a part (--bbox) takes less; --dry-run tells it alone.\n",
              what, rough_duration(estimate.seconds), rough_size(estimate.memory_bytes / (1 << 20)));
@@ -257,6 +262,11 @@ void require_answers(const EvaluationSummary& summary, const SvfOptions& options
   if (summary.no_data > 0 && options.source == ReceiverSource::surfaces)
     throw NoAnswer(fmt::format("{}: another building or the ground covers all {} receivers on surfaces{}. {}", nothing,
                                summary.no_data, beyond > 0 ? fmt::format(", and {} lie beyond the box", beyond) : "", place));
+  if (options.evaluation.within_m && summary.outside_of_region > 0)
+    throw NoAnswer(
+        fmt::format("{}: {} inside buildings or without ground, {} farther than {:g} m from any building. Give a larger "
+                    "--within, or finer pixels.",
+                    nothing, summary.no_data, summary.outside_of_region, *options.evaluation.within_m));
   if (summary.no_data > 0)
     throw NoAnswer(fmt::format("{}: {} inside buildings or without ground{}. Choose other places, or --on-surface.", nothing,
                                summary.no_data, beyond > 0 ? fmt::format(", {} beyond the city", beyond) : ""));

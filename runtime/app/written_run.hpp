@@ -12,6 +12,7 @@
 #include "app/svf_options.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/package.hpp"
+#include "farlod/quantities.hpp"
 #include "farlod/run.hpp"
 #include "farlod/surfaces.hpp"
 #include "farlod/view_factor_matrix.hpp"
@@ -34,13 +35,13 @@ struct WrittenRun {
   std::vector<std::filesystem::path> files = {};
   double output_bytes = 0.0;  ///< of a dry run: how large they would be, more or less
   double open_s = 0.0;
-  double write_s = 0.0;                           ///< besides EvaluationSeconds::deliver
-  std::vector<std::string> further_columns = {};  ///< names of the further quantities
-  std::vector<std::string> notes = {};            ///< what the user should know of how the points were read, a sentence each
-  std::size_t skipped_features = 0;               ///< of the file of points, which are no points
-  std::optional<GreyMap> grey_map = {};           ///< of a raster, if a map of its errors is asked for
-  std::optional<PeriodLight> light = {};          ///< what is known of it, but for its intervals, if any is asked for
-  std::optional<WrittenMatrix> matrix = {};       ///< if one is asked for
+  double write_s = 0.0;                                 ///< besides EvaluationSeconds::deliver
+  std::vector<ColumnDescription> further_columns = {};  ///< of the further quantities
+  std::vector<std::string> notes = {};       ///< what the user should know of how the points were read, a sentence each
+  std::size_t skipped_features = 0;          ///< of the file of points, which are no points
+  std::optional<GreyMap> grey_map = {};      ///< of a raster, if a map of its errors is asked for
+  std::optional<PeriodLight> light = {};     ///< what is known of it, but for its intervals, if any is asked for
+  std::optional<WrittenMatrix> matrix = {};  ///< if one is asked for
 };
 
 /// No receiver has an answer: nothing is written.

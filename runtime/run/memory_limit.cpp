@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "base/machine_memory.hpp"
 #include "base/run_settings.hpp"
 #include "canopy/canopy_field.hpp"
 #include "evaluate/verification.hpp"
@@ -124,6 +125,19 @@ void require_below_limit(double bytes, const RunSettings& run, const std::string
                      std::to_string(*run.memory_limit_mib) + " MiB: raise the memory limit, or " + instead + ".");
 }
 
+/// What somebody allowed is his to know.
+void require_below_machine(double bytes, const RunSettings& run, const std::string& what, const std::string& instead) {
+  if (run.memory_limit_mib || !is_beyond_machine(bytes)) return;
+  throw LimitReached(what + " needs about " + in_mib(bytes) + " MiB, and this machine has " +
+                     in_mib(machine_memory_bytes().value_or(0.0)) + " MiB: " + instead + ", or set a memory limit of " +
+                     in_mib(bytes) + " MiB to start all the same.");
+}
+
+constexpr const char* take_less = "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths";
+constexpr const char* without_whole_city =
+    "leave out what needs it (the engine exact, a verification, a largest error, distances of horizons, view factors, shadow "
+    "patches, points beyond the grid, cells without a far map)";
+
 }  // namespace
 
 std::size_t cells_in_flight(std::size_t threads) { return 4 * threads; }
@@ -174,12 +188,11 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   const bool has_whole_city = needs.whole_city || traces_whole_city(settings);
   const double in_all = bytes + (has_whole_city ? bytes_of_whole_city(manifest, settings) : 0.0);
   // What is told is enough, whichever of its parts is too large
-  if (is_above_limit(bytes, settings.run))
-    require_below_limit(in_all, settings.run, "this run",
-                        "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
-  require_below_limit(in_all, settings.run, "tracing the whole city",
-                      "leave out what needs it (the engine exact, a verification, a largest error, distances of horizons, view "
-                      "factors, shadow patches, points beyond the grid, cells without a far map)");
+  if (is_above_limit(bytes, settings.run)) require_below_limit(in_all, settings.run, "this run", take_less);
+  require_below_limit(in_all, settings.run, "tracing the whole city", without_whole_city);
+  if (settings.dry_run) return in_all;
+  if (is_beyond_machine(bytes)) require_below_machine(in_all, settings.run, "this run", take_less);
+  require_below_machine(in_all, settings.run, "tracing the whole city", without_whole_city);
   return in_all;
 }
 
@@ -190,7 +203,9 @@ EvaluationSummary with_memory(EvaluationSummary summary, double bytes) {
 
 void require_memory(const RunSettings& run, double bytes, const std::string& what, const std::string& instead) {
   const double threads = static_cast<double>(thread_count(run));
-  require_below_limit(program_bytes + threads * thread_bytes + static_cast<double>(run.caller_bytes) + bytes, run, what, instead);
+  const double in_all = program_bytes + threads * thread_bytes + static_cast<double>(run.caller_bytes) + bytes;
+  require_below_limit(in_all, run, what, instead);
+  require_below_machine(in_all, run, what, instead);
 }
 
 }  // namespace farlod

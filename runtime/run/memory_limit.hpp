@@ -35,8 +35,8 @@ struct MemoryNeeds {
 /// The same run, whose caller holds so many bytes more.
 [[nodiscard]] RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes);
 
-/// Throws LimitReached when the run needs more memory than the caller gives it. Where the caller says nothing, there is no limit
-/// to reach: what a run takes does not grow with the city, unless the whole city has to be one scene. Returns the bytes that it
+/// Throws LimitReached when the run needs more memory than the caller gives it; where the caller says nothing, when it needs
+/// clearly more than the machine has (is_beyond_machine), unless it is a dry run, which tells it. Returns the bytes that it
 /// needs.
 double require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs);
 

@@ -94,7 +94,7 @@ TEST_F(TreeTown, KeepsErrorsThatAreAskedForWithItsCrowns) {
 
 TEST_F(TreeTown, SaysTheTotalAtTheEnd) {
   const Outcome run = folder.run("farlod-svf b.farlod -o o.csv --quantity svf_total --at " + under_trees);
-  EXPECT_THAT(run.out, HasSubstr("svf_total: min 0."));
+  EXPECT_THAT(run.out, HasSubstr("svf_total: 0."));
 }
 
 TEST_F(TreeTown, HasTheTotalWhereNobodySaysWhatToCompute) {

@@ -60,7 +60,7 @@ TEST(TwoBlocks, APointNextToThemButOutsideOfTheGridHasHorizons) {
   // The grid ends within one cell of the outermost wall; this point is 12 m away from it
   const std::string place = text_of(p_projected({-22.0, 3.0}));
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --at " + place);
-  EXPECT_NE(outcome.out.find("outside of the grid"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("1 receiver around the grid of cells was answered"), std::string::npos) << outcome.out;
   folder.must("farlod-svf a.farlod -o exact.csv --engine exact --rays 20000 --at " + place);
   const double svf = CsvTable(folder.text_of("o.csv")).number(0, "svf"), of_azimuths_and_rays = 0.002;
   EXPECT_NEAR(svf, CsvTable(folder.text_of("exact.csv")).number(0, "svf"), of_azimuths_and_rays);
@@ -239,6 +239,14 @@ TEST_F(PackedTown, SolidAngleIsAnotherQuantityUnderAnotherName) {
   EXPECT_LT(table("o.csv").number(0, "svf_solid"), cosine);
 }
 
+TEST_F(PackedTown, FiguresOnTheTerminalHaveTheirUnits) {
+  const Outcome map = folder.run("farlod-svf a.farlod -o o.tif --grid 10 --quantity sunlit,hidden --sun 2026-06-21");
+  EXPECT_THAT(map.out, testing::ContainsRegex("sunlit_h: min [0-9.]+, mean [0-9.]+, max [0-9.]+ h\n"));
+  EXPECT_THAT(map.out, testing::ContainsRegex("hidden_near: min [0-9.]+, mean [0-9.]+, max [0-9.]+\n")) << "a share has none";
+  const Outcome place = folder.run("farlod-svf a.farlod -o o.csv --quantity sunlit --sun 2026-06-21 --at " + text_of(crossing));
+  EXPECT_THAT(place.out, testing::ContainsRegex("svf: 0\\.[0-9]+\nsunlit_h: [0-9.]+ h\n")) << "of one place, one number";
+}
+
 /// What stands between two fences, in the order of the page.
 std::vector<std::string> fenced_blocks(const std::filesystem::path& page) {
   std::ifstream file(page);
@@ -292,7 +300,7 @@ TEST_P(Tutorials, SayWhatTheProgramsSay) {
 INSTANTIATE_TEST_SUITE_P(
     All, Tutorials,
     testing::Values(Tutorial{"city_files.md", 6, {}}, Tutorial{"is_my_city_right.md", 2, {}}, Tutorial{"trees.md", 10, {}},
-                    Tutorial{"jobs.md", 29, {}}, Tutorial{"solar_register.md", 4, {}}, Tutorial{"urban_form.md", 3, {}},
+                    Tutorial{"jobs.md", 33, {}}, Tutorial{"solar_register.md", 4, {}}, Tutorial{"urban_form.md", 3, {}},
                     Tutorial{"facades.md", 3, {"facades.csv", "facades.surfaces.csv", "facades.buildings.csv"}}));
 
 }  // namespace

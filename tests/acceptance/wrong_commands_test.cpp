@@ -22,6 +22,12 @@ using testing::StartsWith;
 constexpr std::array words_of_libraries{"not in {", "Could not convert", "required FLOAT", "FILE missing",
                                         "At Most",  "gives no reason",   "not readable"};
 
+/// A footprint with a street for a name, and a height.
+std::string streets_geojson() {
+  return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"street":"East 86th","height":9},)"
+         R"("geometry":{"type":"Polygon","coordinates":[[[9,49],[9.0001,49],[9.0001,49.0001],[9,49]]]}}]})";
+}
+
 /// The files that commands are wrong about: a package, its city, and what people take for a city, a table or a folder of their
 /// own.
 class WrongCommands : public testing::TestWithParam<WrongCommand> {
@@ -37,6 +43,7 @@ class WrongCommands : public testing::TestWithParam<WrongCommand> {
     folder.write("paper.pdf", "%PDF-1.4\n1 0 obj\n");
     folder.write("cut.zip", std::string("PK\x03\x04\x14\x00\x00\x00", 8) + std::string(100, '\0'));
     folder.write("points.csv", "x,y\n500030,5500010\n");
+    folder.write("streets.geojson", streets_geojson());
     folder.write("typo.toml", "rayz = 100\n");
     folder.write("far.asc", "ncols 2\nnrows 2\nxllcorner 100000\nyllcorner 200000\ncellsize 1\n1 1\n1 1\n");
   }

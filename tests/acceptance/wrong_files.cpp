@@ -68,6 +68,7 @@ std::vector<WrongCommand> inputs_that_are_others() {
       pack_of("town.geojson --trees empty", {"empty is a folder: give a file"}),
       pack_of("town.geojson --area lost.gpkg", {"lost.gpkg does not exist"}),
       pack_of("town.geojson --height-field hight", {"no field \"hight\"", "height, floors", "--height-field"}),
+      pack_of("streets.geojson --height-field street", {"the field street has a number in no feature", "numbers: height"}),
       table_with("--points lost.csv", {"lost.csv does not exist. Check the path"}),
       table_with("--points point.csv", {"point.csv does not exist; did you mean points.csv?"}),
       table_with("--points cities", {"cities is a folder: give a file"}),
@@ -103,6 +104,8 @@ std::vector<WrongCommand> places_of_nothing() {
   return {
       map_with("--grid 20 --bbox 2000,3000,2100,3100", {"No receiver has an answer", "The city lies from", "check --bbox"}),
       map_with("--grid 20 --bbox 2000,3000,2100,3100 --dry-run", {"No receiver has an answer", "check --bbox"}),
+      map_with("--grid 20 --within 0 --bbox 500000,5500000,500100,5500100",
+               {"No receiver has an answer", "farther than 0 m from any building", "--within"}),
       map_with("--grid 20 --bbox 5500000,500000,5500100,500100", {"none of", "The city lies from"}),
       table_with("--surfaces roofs --bbox 0,0,1,1", {"The city lies from"}),
       table_with("--at 49.65,9.0", {"49.65, 9 lies more than 100 km from the city", "give the longitude before the latitude"}),
@@ -110,9 +113,22 @@ std::vector<WrongCommand> places_of_nothing() {
       map_with("--grid 20 --merge", {"there is nothing to merge into o.asc"}),
       unusable_file("farlod-pack --merge -o b.farlod", {"there is nothing to merge into b.farlod"}),
 #ifdef FARLOD_WITH_GDAL
+      map_with("--grid 20 --bbox 9.5,50.1,9.6,50.2",
+               {"The city lies from", "In degrees (longitude, latitude), --bbox goes from 9.5000, 50.1000",
+                "and the city from 8.9998"}),
+      map_with("--grid 20 --bbox 9.5,50.1,9.6,50.2 --dry-run", {"In degrees"}),
+      map_with("--grid 20 --bbox 139.6,35.9,139.7,36.0", {"In degrees", "from 139.6000, 35.9000", "and the city from 8.9998"}),
       map_with("--grid-like far.asc", {"No receiver has an answer", "check --grid-like"}),
 #endif
   };
+}
+
+/// Runs for which no machine has the memory.
+std::vector<WrongCommand> more_than_machines_have() {
+  // 4,096 cells are in flight, each with 100 million receivers of 100 bytes: 40 TB and more
+  return {{"farlod-svf a.farlod -o o.tif --grid 0.01 --threads 1024 --quiet",
+           exit_limit_reached,
+           {"this run needs about ", "MiB, and this machine has ", "a coarser raster", "set a memory limit of", "--bbox"}}};
 }
 
 /// Outputs that cannot be written, or would take the place of something else.
@@ -159,7 +175,8 @@ std::vector<WrongCommand> outputs_in_the_way() {
 
 std::vector<WrongCommand> wrong_files() {
   std::vector<WrongCommand> all;
-  for (const auto& rows : {packages_that_are_none(), inputs_that_are_others(), places_of_nothing(), outputs_in_the_way()})
+  for (const auto& rows :
+       {packages_that_are_none(), inputs_that_are_others(), places_of_nothing(), more_than_machines_have(), outputs_in_the_way()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

@@ -78,7 +78,7 @@ OF_NOTHING = [
     ("svf", ([[49.65, 9.69]],), {}, ("100 km from the city",)),
     ("svf", ([[5500000.0, 550000.0]],), {}, ("(5500000, 550000)", "easting and northing")),
     ("look_up", ([9.69, 49.65],), {}, ("100 km from the city",)),
-    ("svf_grid", (20.0, (9.0, 49.0, 10.0, 50.0)), {}, ("nothing of the city lies", "WGS 84 / UTM zone 32N")),
+    ("svf_grid", (20.0, (9.0, 49.0, 10.0, 50.0)), {}, ("nothing of the city lies", "WGS 84 / UTM zone 32N. If bbox is in degrees")),
     ("svf_grid", (20.0, (650000.0, 5500000.0, 650100.0, 5500100.0)), {}, ("nothing of the city lies",)),
     ("ground", (20.0, (9.0, 49.0, 10.0, 50.0)), {}, ("nothing of the city lies",)),
     ("sunlit", (HERE, [], [], []), {}, ("at least one position",)),
@@ -175,3 +175,13 @@ def test_what_is_no_package(tmp_path: Path) -> None:
         with pytest.raises(farlod.PackageUnusable) as raised:
             farlod.open(tmp_path / name)
         assert text in str(raised.value)
+
+
+def test_doubts_of_a_report_name_arguments(tmp_path: Path) -> None:
+    houses = [shapely.geometry.box(550000 + 30 * n, 5500000, 550010 + 30 * n, 5500012) for n in range(12)]
+    frame = geopandas.GeoDataFrame({"Etagen": [2 + n // 4 for n in range(12)]}, geometry=houses, crs="EPSG:32632")
+    with pytest.warns(farlod.ProblemsWarning):
+        city = farlod.pack(frame, tmp_path / "p.farlod", heights="Etagen")
+    [doubt] = [problem for problem in city.report.problems if problem.code == 208]
+    assert "heights.storeys Etagen in place of heights.height" in doubt.detail
+    assert "--" not in doubt.detail

@@ -63,7 +63,22 @@ std::optional<double> unit_m(std::string_view unit, LengthUnit plain) {
 
 std::string_view without_blanks_behind(std::string_view text) { return text.substr(0, text.find_last_not_of(" \t\r\n") + 1); }
 
+/// Whether a name ends with a unit that is no part of a word, as it is in "loft": "h_ft", "h (ft)", "hFt".
+bool ends_with_unit(std::string_view name, std::string_view unit) {
+  while (name.ends_with(')') || name.ends_with(']')) name.remove_suffix(1);
+  if (name.size() <= unit.size() || !lower_case(name).ends_with(unit)) return false;
+  const char last = name[name.size() - unit.size() - 1], first = name[name.size() - unit.size()];
+  const auto is_small = [](char c) { return 'a' <= c && c <= 'z'; };
+  const auto is_capital = [](char c) { return 'A' <= c && c <= 'Z'; };
+  return !(is_small(last) || is_capital(last)) || (is_small(last) && is_capital(first));
+}
+
 }  // namespace
+
+LengthUnit unit_of(std::string_view field) {
+  const bool is_in_feet = ends_with_unit(field, "ft") || lower_case(field).ends_with("feet");
+  return is_in_feet ? LengthUnit::foot : LengthUnit::metre;
+}
 
 double metres_in(LengthUnit unit) {
   switch (unit) {
@@ -119,12 +134,6 @@ constexpr std::array<std::string_view, 1> roof_storeys_names{"roof:levels"};
 constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
 /// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
 constexpr std::array<std::string_view, 2> lowest_storeys_names{"building:min_level", "min_floor"};
-
-/// The unit of a column of numbers: its name ends with the unit, or it is in metres.
-LengthUnit unit_of(const std::string& field) {
-  const std::string name = lower_case(field);
-  return name.ends_with("_ft") || name.ends_with("_feet") ? LengthUnit::foot : LengthUnit::metre;
-}
 
 /// The fields with known names, in the order of these names, after the field that the settings name. Of two fields with the same
 /// name, the first.
@@ -274,7 +283,10 @@ std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& r
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& height, const FieldLookup& value_of) const {
-  if (auto objection = objection_to(height.value_m, height.said)) return *objection;
+  if (auto objection = objection_to(height.value_m, height.said)) {
+    if (height.field && height.value_m > highest_building_m) objection->too_high = SaidValue{*height.field, height.value_m};
+    return *objection;
+  }
   const double lowest_m = lowest_part_m(value_of);
   if (lowest_m >= height.value_m) {
     std::vector<std::size_t> lowest = lowest_heights_;

@@ -21,6 +21,9 @@ enum class LengthUnit { metre, foot, centimetre, millimetre, inch };
 
 [[nodiscard]] double metres_in(LengthUnit unit);
 
+/// The unit of a column of numbers: its name ends with the unit (`h_ft`, `h (ft)`, `hFt`, `h_feet`), or it is in metres.
+[[nodiscard]] LengthUnit unit_of(std::string_view field);
+
 /// The length in a text of an attribute table, in metres: "17.5", "17,5", "17.5 m", "~17 m", "57 ft", 57', 57'6", "80 cm",
 /// "6.28 inches". Empty for any other text, such as a range: a reported gap is better than a guess.
 [[nodiscard]] std::optional<double> length_m_from(std::string_view text, LengthUnit plain = LengthUnit::metre);
@@ -55,10 +58,17 @@ struct PrismExtent {
   std::optional<std::size_t> height_field = {};  ///< that has the height above the base
 };
 
+/// A height above the base as a field says it, be it impossible.
+struct SaidValue {
+  std::size_t field = 0;
+  double value_m = 0.0;
+};
+
 /// Why a footprint has no prism.
 struct Unraised {
   ProblemCode code;
   std::string detail;
+  std::optional<SaidValue> too_high = {};
 };
 
 /// Finds the heights of footprints in the fields of their table. For each feature, the first of these that has a value counts:
@@ -76,6 +86,8 @@ class FootprintHeights {
 
   /// Whether there is any field with heights, or a default height.
   [[nodiscard]] bool can_tell() const;
+  /// The fields with heights above the base: the one that the settings name, then the others.
+  [[nodiscard]] const std::vector<std::size_t>& fields() const { return heights_; }
   [[nodiscard]] std::variant<PrismExtent, Unraised> of(const FieldLookup& value_of) const;
 
   /// Whether the settings name a field with elevations of bases.

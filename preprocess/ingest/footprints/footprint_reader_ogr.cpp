@@ -23,6 +23,7 @@
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/openstreetmap_areas_gdal.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
+#include "plausibility/doubtful_heights.hpp"
 #include "plausibility/elevations_as_heights.hpp"
 
 namespace farlod::ingest {
@@ -80,7 +81,8 @@ class FootprintLayer {
         builder_(builder),
         table_(layer),
         parts_(layer, table_),
-        heights_(table_.names(), with_fields_checked(settings)) {
+        heights_(table_.names(), with_fields_checked(settings)),
+        is_height_named_(settings.height_field.has_value()) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
     require_features();
@@ -103,6 +105,7 @@ class FootprintLayer {
     }
     report(messages, layer_.GetName());
     for (const auto& [field, heights] : said_) plausibility::require_heights(builder_.source(), table_.names()[field], heights);
+    report_doubts();
   }
 
   /// For the user: which layer is read, if there are `others`, and how many heights are not measured ones.
@@ -115,6 +118,14 @@ class FootprintLayer {
     if (raised_by_storeys_ > 0) notes.push_back(std::move(storeys).str());
     if (raised_by_default_ > 0)
       notes.push_back(builder_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
+    for (const auto& [field, count] : raised_by_field_) {
+      const std::string of_field =
+          builder_.source() + ": " + std::to_string(count) + (count == 1 ? " height is" : " heights are") + " of the field ";
+      if (is_height_named_ && field != heights_.fields().front())
+        notes.push_back(of_field + table_.names()[field] + ", where " + table_.names()[heights_.fields().front()] + " has none");
+      if (unit_of(table_.names()[field]) == LengthUnit::foot)
+        notes.push_back(of_field + table_.names()[field] + ", which is in feet by its name");
+    }
     return notes;
   }
 
@@ -138,11 +149,28 @@ class FootprintLayer {
 
   void check_field(const std::optional<std::string>& name, const char* option) {
     const auto is_it = [&](const std::string& field) { return lower_case(field) == lower_case(*name); };
-    if (!name || std::any_of(table_.names().begin(), table_.names().end(), is_it)) return;
+    if (!name) return;
+    const auto found = std::find_if(table_.names().begin(), table_.names().end(), is_it);
+    if (found != table_.names().end()) {
+      require_numbers(static_cast<std::size_t>(found - table_.names().begin()), option);
+      return;
+    }
     const bool may_be_misread = layer_.GetMetadata("SHAPEFILE") != nullptr && !holds_ascii_alone(*name);
     throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_, table_) +
                      "). Give one of them as " + option +
                      (may_be_misread ? ", or the encoding of their names by --encoding where they look wrong." : "."));
+  }
+
+  /// Other fields would take the place of one that never says a number.
+  void require_numbers(std::size_t field, const char* option) {
+    layer_.ResetReading();
+    Feature feature = next_feature(layer_);
+    const bool is_empty = !feature;
+    for (; feature; feature = next_feature(layer_))
+      if (is_length(FeatureTable::Row(table_, *feature).value(field))) return;
+    if (is_empty) return;  // which is told as such
+    throw InputError(builder_.source() + ": the field " + table_.names()[field] + " has a number in no feature (" +
+                     numeric_fields(layer_, table_) + "). Give one of them as " + option + ".");
   }
 
   /// A service answers so where nothing lies in the area, or at the end of its pages.
@@ -244,30 +272,61 @@ class FootprintLayer {
     if (const auto* reason = std::get_if<Unraised>(&answer)) {
       require_text(reason->detail);
       builder_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
+      if (reason->too_high) keep_said(reason->too_high->field, {reason->too_high->value_m, size_m2(polygons.front())}, too_high_);
       return;
     }
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
     if (const auto owner = row.owner()) owners_of_parts_.push_back(*owner);
-    if (extent.height_field) keep_said(*extent.height_field, extent, polygons.front(), outline_m);
+    if (extent.height_field) {
+      ++raised_by_field_[*extent.height_field];
+      keep_said(*extent.height_field, extent, polygons.front(), outline_m);
+    }
     builder_.begin_building(id, extent.height_reference, extent.foot);
     for (std::size_t part = 0; part < polygons.size(); ++part)
       builder_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
     builder_.end_building("none of its rings is usable");
   }
 
-  /// Keeps what is said of some buildings, to find out whether it is no height.
-  void keep_said(std::size_t field, const PrismExtent& extent, const Rings& rings, double outline_m) {
-    constexpr std::size_t enough = 10'000;
-    std::vector<plausibility::SaidHeight>& heights = said_[field];
-    if (heights.size() == enough || rings.empty() || rings.front().empty()) return;
-    const bool has_base = extent.height_reference == HeightReference::elevation;
+  /// The area of the box around a footprint.
+  double size_m2(const Rings& rings) const {
+    if (rings.empty() || rings.front().empty()) return 0.0;
     Box2d box;
     for (const Point3d& p : rings.front()) box.add(horizontal(p));
     const Point2d scale = plan_scale(layer_.GetSpatialRef(), box.low), size = box.high - box.low;
-    heights.push_back({has_base ? extent.top_m - extent.base_m : extent.top_m, scale.x * size.x * scale.y * size.y, outline_m,
-                       has_base ? std::optional(extent.base_m) : std::nullopt});
+    return scale.x * size.x * scale.y * size.y;
+  }
+
+  /// What is said of some buildings, to find out whether it is no height.
+  using HeightsOfFields = std::map<std::size_t, std::vector<plausibility::SaidHeight>>;
+  static void keep_said(std::size_t field, const plausibility::SaidHeight& said, HeightsOfFields& heights) {
+    constexpr std::size_t enough = 10'000;
+    if (heights[field].size() < enough) heights[field].push_back(said);
+  }
+
+  void keep_said(std::size_t field, const PrismExtent& extent, const Rings& rings, double outline_m) {
+    if (rings.empty() || rings.front().empty()) return;
+    const bool has_base = extent.height_reference == HeightReference::elevation;
+    keep_said(field,
+              {has_base ? extent.top_m - extent.base_m : extent.top_m, size_m2(rings), outline_m,
+               has_base ? std::optional(extent.base_m) : std::nullopt},
+              said_);
+  }
+
+  void report_doubts() {
+    HeightsOfFields all = said_;
+    for (const auto& [field, heights] : too_high_) {
+      // One number that many have means unknown
+      const auto is_first = [first_m = heights.front().height_m](const plausibility::SaidHeight& h) {
+        return h.height_m == first_m;
+      };
+      if (!std::all_of(heights.begin(), heights.end(), is_first))
+        all[field].insert(all[field].end(), heights.begin(), heights.end());
+    }
+    for (const auto& [field, heights] : all)
+      if (const auto doubt = plausibility::doubt_about_heights(heights, table_.names()[field]))
+        builder_.add_problem_at("the whole file", ProblemCode::implausible_size, table_.names()[field] + " " + *doubt);
   }
 
   OGRLayer& layer_;
@@ -279,7 +338,9 @@ class FootprintLayer {
   std::vector<int> id_fields_;
   bool holds_bodies_ = false;
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
-  std::map<std::size_t, std::vector<plausibility::SaidHeight>> said_;  ///< by field
+  bool is_height_named_ = false;
+  std::map<std::size_t, std::size_t> raised_by_field_;
+  HeightsOfFields said_, too_high_;  ///< by field
   std::vector<std::string> owners_of_parts_;
 };
 

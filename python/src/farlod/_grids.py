@@ -66,9 +66,11 @@ def _require_of_city(box: _arguments.Bbox, city: Mapping[str, Any]) -> None:
     near_m = 1000.0
     west, south, east, north = city["bounds_m"]
     if box[0] > east + near_m or box[1] > north + near_m or box[2] < west - near_m or box[3] < south - near_m:
+        may_be_degrees = max(abs(box[0]), abs(box[2])) <= 360.0 and max(abs(box[1]), abs(box[3])) <= 90.0
         raise InvalidArgument(
             f"bbox is {_arguments.shown(box)}, where nothing of the city lies: it reaches from {west:.0f}, {south:.0f} to "
             f"{east:.0f}, {north:.0f} in {city['crs_name']}"
+            + (". If bbox is in degrees, bring it to that CRS (city.crs)" if may_be_degrees else "")
         )
 
 

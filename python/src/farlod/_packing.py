@@ -384,7 +384,7 @@ def pack(
             error.args = (in_python(str(error), folder), *error.args[1:])
             raise
         finally:
-            found = [Problem(**row) for row in rows]
+            found = [Problem(**{**row, "detail": in_python(row["detail"], folder)}) for row in rows]
             if report:
                 _warn_of(found)
     opened = City(path)

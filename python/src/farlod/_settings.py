@@ -73,7 +73,7 @@ class Options(TypedDict, total=False):
     threads : int
         0: as many as the machine has cores.
     memory_limit : int
-        MiB. A run that would need more raises LimitReached before its long work.
+        MiB. A run that would need more raises LimitReached before its long work (default: 1.2 times what the machine has).
     progress : bool or callable
         True prints a line; a function is called as ``progress(stage, done, all)`` some times a second. What it raises ends
         the run.

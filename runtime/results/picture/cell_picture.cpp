@@ -77,7 +77,7 @@ void add_outlines(Drawing& drawing, const CellPlanFrame& frame, const BuildingOu
 
 void add_plan_legend(Drawing& drawing, const CellPlanFrame& frame) {
   const double top = static_cast<double>(plan_top + cell_plan_edge);
-  add_scale_bar(drawing, {static_cast<double>(page_margin), top + 6.0}, frame.metres_per_pixel());
+  add_scale_bar(drawing, {static_cast<double>(page_margin), top + 6.0}, frame.metres_per_pixel(), cell_plan_edge);
   PagePoint place{static_cast<double>(page_margin), top + 52.0};
   for (const auto& [zone, words] : {std::pair{CellZone::cell, "the cell"},
                                     {CellZone::near, "near: its neighborhood"},

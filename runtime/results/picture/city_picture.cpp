@@ -154,7 +154,7 @@ std::string words_of_highest(const CityScenery& scenery, const CityScale& scale)
 }
 
 void add_footer(Drawing& drawing, const CityScenery& scenery, const CityScale& scale, PagePoint place) {
-  add_scale_bar(drawing, place, scenery.plan.step_m);
+  add_scale_bar(drawing, place, scenery.plan.step_m, scenery.plan.columns);
   add_words(drawing, {place.x + 230.0, place.y + 27.0}, words_of_grid(scenery));
   place.y += 27.0 + step_of_rows;
   std::vector<std::string> rows{words_of_highest(scenery, scale)};

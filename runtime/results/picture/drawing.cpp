@@ -79,8 +79,9 @@ double round_length_m(double limit_m) {
   return power;
 }
 
-void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel) {
-  const double length_m = round_length_m(longest_scale_bar * metres_per_pixel), width = length_m / metres_per_pixel;
+void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel, std::size_t map_width) {
+  const double longest = std::min(longest_scale_bar, static_cast<double>(std::max<std::size_t>(map_width, 1)));
+  const double length_m = round_length_m(longest * metres_per_pixel), width = length_m / metres_per_pixel;
   const double y = place.y + text_height + 12.0;
   drawing.shapes.emplace_back(
       Line{{{place.x, y - tick}, {place.x, y}, {place.x + width, y}, {place.x + width, y - tick}}, line_width, ink});

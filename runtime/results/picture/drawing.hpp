@@ -106,8 +106,8 @@ struct DrawingFormats {
 /// A length of 1, 2 or 5 times a power of ten, the longest that is not above `limit_m` (which is positive).
 [[nodiscard]] double round_length_m(double limit_m);
 
-/// A scale bar below a place, of 200 pixels at the most.
-void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel);
+/// A scale bar below a place, of 200 pixels at the most, and no wider than the map.
+void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel, std::size_t map_width);
 
 /// An arrow that points upwards, with an N below it.
 void add_north_arrow(Drawing& drawing, PagePoint tip);

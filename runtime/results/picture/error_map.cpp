@@ -197,7 +197,7 @@ Drawing draw_error_map(const GreyMap& map, std::span<const Segment> outlines, st
   const double full = error_of_full_colour(errors);
   add_marks(drawing, layout, map, receivers, full);
   add_colour_scale(drawing, layout, full);
-  add_scale_bar(drawing, footer, map.raster.metres_per_pixel);
+  add_scale_bar(drawing, footer, map.raster.metres_per_pixel, map.raster.columns);
   add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, has_values(map));
   add_statistics(drawing, {footer.x, footer.y + 14.0 + 3.0 * step_of_lines}, errors);
   add_north_arrow(drawing, {point_of(layout.colour_bar).x + 48.0, footer.y - 4.0});

@@ -312,7 +312,7 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, cons
   add_outlines(drawing, layout, background);
   add_colour_bar(drawing, layout, scale);
   const PagePoint footer = page_point_of(layout.footer);
-  add_scale_bar(drawing, footer, raster.metres_per_pixel);
+  add_scale_bar(drawing, footer, raster.metres_per_pixel, raster.columns);
   add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, background, greys_of(raster, background));
   const double right = static_cast<double>(layout.picture.width - margin);
   add_north_arrow(drawing, {right - 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});

@@ -255,12 +255,15 @@ void add_directions(Drawing& drawing) {
   add("W", middle_x + away, middle_y + half_height, Alignment::left);
 }
 
-/// The colours that a picture may have, and what they mean.
+/// The colours that a picture has, and what they mean.
 std::vector<std::pair<SkyPart, const char*>> colours_of(const Hemisphere& hemisphere) {
-  std::vector<std::pair<SkyPart, const char*>> colours{
-      {SkyPart::sky, "sky"}, {SkyPart::near, "near geometry"}, {SkyPart::far, "far geometry"}};
-  if (std::ranges::find(hemisphere.parts, SkyPart::crown) != hemisphere.parts.end())
-    colours.emplace_back(SkyPart::crown, "crowns of trees");
+  constexpr std::array<std::pair<SkyPart, const char*>, 4> words{{{SkyPart::sky, "sky that is seen"},
+                                                                  {SkyPart::near, "buildings, ground: near"},
+                                                                  {SkyPart::far, "buildings, ground: far"},
+                                                                  {SkyPart::crown, "crowns of trees"}}};
+  std::vector<std::pair<SkyPart, const char*>> colours;
+  for (const auto& row : words)
+    if (std::ranges::find(hemisphere.parts, row.first) != hemisphere.parts.end()) colours.push_back(row);
   return colours;
 }
 
@@ -278,7 +281,7 @@ PagePoint add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjecti
     add_text(words, 26.0, ink);
   }
   drawing.shapes.emplace_back(Line{{{x, y + 7.0}, {x + 16.0, y + 7.0}}, 2.0, horizon_colour});
-  add_text("horizon", 26.0, ink);
+  add_text("horizon, sky above it", 26.0, ink);
   y += 12.0;
   for (const std::string& words : {std::string("Seen from below:"), std::string("north up, east on the left"),
                                    std::string("True north"), "Projection: " + name_of(projection)})

@@ -77,6 +77,11 @@ std::vector<double> ValueScale::ticks() const {
   return ticks;
 }
 
+std::string sign_of_unit(const std::string& unit) {
+  const auto* const found = std::ranges::find(units, unit, &UnitSigns::unit);
+  return found == units.end() ? "" : found->sign;
+}
+
 ValueScale scale_of(const Band& band, double max_value) {
   ValueScale scale{title_of(band.name), "", "", 1.0};
   const auto* const found = std::ranges::find(units, band.unit, &UnitSigns::unit);

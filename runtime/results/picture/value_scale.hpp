@@ -15,6 +15,9 @@ namespace farlod {
 /// A multiple of a step, with as many digits behind the point as the step has: "0.2", "1000".
 [[nodiscard]] std::string tick_text(double value, double step);
 
+/// A unit in the words of UDUNITS as people write it: "kWh/m²" of "kW h m-2"; empty of a share, and of what is not known.
+[[nodiscard]] std::string sign_of_unit(const std::string& unit);
+
 /// What the colours of a map stand for.
 struct ValueScale {
   std::string title;     ///< what the band is, and its name: "Sky view factor (svf)"

@@ -242,6 +242,18 @@ TEST(ScaleBar, IsRoundAndAsLongAsItMayBe) {
   EXPECT_EQ(round_length_m(0.3), 0.2);
 }
 
+TEST(ScaleBar, IsNoWiderThanItsMap) {
+  const auto width_at = [](std::size_t map_width) {
+    Drawing drawing{{400, 100}, "map"};
+    add_scale_bar(drawing, {10.0, 10.0}, 1.0, map_width);
+    const auto& corners = std::get<Line>(drawing.shapes.front()).places;
+    return corners.back().x - corners.front().x;
+  };
+  EXPECT_EQ(width_at(1000), 200.0);
+  EXPECT_EQ(width_at(60), 50.0);
+  EXPECT_EQ(width_at(3), 2.0);
+}
+
 const RasterPlan small_plan{{0.0, 0.0}, 2.0, 8, 6};
 
 /// A plane that rises by so much a metre to the east and to the north.

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "plausibility/doubtful_heights.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "base/lower_case.hpp"
+
+namespace farlod::plausibility {
+namespace {
+
+constexpr std::size_t enough_values = 10;
+/// An outline fills at least so much of its box, whichever way it is turned, unless it has yards or wings.
+constexpr double least_filled = 0.35, most_filled = 1.05;
+constexpr double most_storeys = 60.0, usual_storeys = 8.0, storeys_by_any_name = 3.0, whole = 1e-6;
+constexpr double highest_usual_median_m = 300.0;
+constexpr double lowest_thin_m = 40.0, thin = 6.0;
+
+bool is_like_its_area(const SaidHeight& h) {
+  return least_filled * h.plan_m2 <= h.height_m && h.height_m <= most_filled * h.plan_m2;
+}
+
+bool is_thin(const SaidHeight& h) { return h.height_m > lowest_thin_m && h.height_m > thin * std::sqrt(h.plan_m2); }
+
+bool may_count_storeys(const SaidHeight& h) {
+  return h.height_m <= most_storeys && std::abs(h.height_m - std::round(h.height_m)) < whole;
+}
+
+template <class Holds>
+double share_of(std::span<const SaidHeight> heights, const Holds& holds) {
+  return static_cast<double>(std::count_if(heights.begin(), heights.end(), holds)) / static_cast<double>(heights.size());
+}
+
+double median_m(std::span<const SaidHeight> heights) {
+  std::vector<double> values;
+  for (const SaidHeight& h : heights) values.push_back(h.height_m);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool is_called_storeys(std::string_view field) {
+  constexpr std::array parts{"floor",  "level", "storey", "stori",  "stock",   "etage",  "geschoss",   "planta",
+                             "pisos",  "piani", "kaisu",  "niveau", "bouwlag", "vaning", "verdieping", "kondygnac",
+                             "levels", "etasj", "kerros", "pavim",  "katlar",  "nbr_et", "nb_et",      "num_fl"};
+  const std::string name = lower_case(field);
+  return std::any_of(parts.begin(), parts.end(), [&](const char* part) { return name.find(part) != name.npos; });
+}
+
+/// `loft` and `shaft` end so, too.
+bool is_called_feet(std::string_view field) {
+  constexpr std::array endings{"heightft", "htft", "hgtft", "elevft", "roofft", "bldgft"};
+  const std::string name = lower_case(field);
+  return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return name.ends_with(ending); });
+}
+
+std::optional<std::string> doubt_about_storeys(std::span<const SaidHeight> heights, double typical_m, std::string_view field) {
+  if (share_of(heights, may_count_storeys) < 1.0) return std::nullopt;
+  const bool is_called_so = is_called_storeys(field);
+  if (typical_m > (is_called_so ? usual_storeys : storeys_by_any_name)) return std::nullopt;
+  return fmt::format(
+      "holds whole numbers, of which a typical one is {:g}, and they were read as metres: are they {}? Give --storeys-field {} "
+      "in place of --height-field, and the height of a storey by --floor-height",
+      typical_m, is_called_so ? "storeys" : "storeys, or codes of something else", field);
+}
+
+}  // namespace
+
+std::optional<std::string> doubt_about_heights(std::span<const SaidHeight> heights, std::string_view field) {
+  constexpr double most = 0.9, half = 0.5;
+  constexpr const char* advice = "name the field that has heights by --height-field, or convert it to metres";
+  if (heights.size() < enough_values) return std::nullopt;
+  const double typical_m = median_m(heights);
+  if (share_of(heights, is_like_its_area) >= most)
+    return fmt::format("is as large as the areas of the outlines, and was read as metres: {}", advice);
+  if (auto doubt = doubt_about_storeys(heights, typical_m, field)) return doubt;
+  if (typical_m > highest_usual_median_m || share_of(heights, is_thin) >= half)
+    return fmt::format(
+        "holds values of which a typical one is {:.0f}, and they were read as metres, which is higher than any town for such "
+        "outlines: are they areas, numbers, or another unit? If they are no heights, {}",
+        typical_m, advice);
+  if (is_called_feet(field))
+    return fmt::format("was read as metres: are they feet? A field whose name ends in _ft is read as feet: rename it to {}",
+                       std::string(field.substr(0, field.size() - 2)) + "_ft");
+  return std::nullopt;
+}
+
+}  // namespace farlod::plausibility

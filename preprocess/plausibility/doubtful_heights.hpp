@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "plausibility/elevations_as_heights.hpp"
+
+namespace farlod::plausibility {
+
+/// Why the values of a field are hardly heights of buildings in metres, in words that go on behind its name, with what to do;
+/// none where they may be. Ten buildings must be there.
+///   (1) areas: for nine of ten buildings, the value is about the area of the outline
+///   (2) storeys: whole numbers up to 60, of which half are at most 8 where the field is called so, or else at most 3
+///   (3) another unit, or another thing: half are more than 300 m, or half are six times as high as they are wide
+///   (4) feet: the field is called `heightft`, which is no clear ending as `_ft` is
+[[nodiscard]] std::optional<std::string> doubt_about_heights(std::span<const SaidHeight> heights, std::string_view field);
+
+}  // namespace farlod::plausibility

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "reading.hpp"
+#include "small_cities.hpp"
+#include "tests/scenes/refusal.hpp"
+
+namespace farlod::ingest::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int houses_of_row = 12;
+
+/// A row of houses of 10 m × 12 m, whose fields are what `fields_of` says.
+std::string row_of_houses(const std::function<std::string(int)>& fields_of) {
+  std::vector<std::string> features;
+  for (int n = 0; n < houses_of_row; ++n) {
+    const double x = 690'000.0 + 30.0 * n, y = 5'335'000.0;
+    const auto corner = [&](double dx, double dy) { return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]"; };
+    features.push_back(feature(
+        fields_of(n), "Polygon",
+        "[[" + corner(0, 0) + "," + corner(10, 0) + "," + corner(10, 12) + "," + corner(0, 12) + "," + corner(0, 0) + "]]"));
+  }
+  return collection(features, R"("crs":{"type":"name","properties":{"name":"EPSG:25832"}},)");
+}
+
+std::string houses_with(const std::string& field, const std::function<double(int)>& value_of) {
+  return row_of_houses([&](int n) { return "\"" + field + "\":" + std::to_string(value_of(n)); });
+}
+
+IngestSettings named(const std::string& field) {
+  IngestSettings settings;
+  settings.footprints.height_field = field;
+  return settings;
+}
+
+/// What is said of a field with such values.
+std::string doubt_about(const std::string& field, const std::function<double(int)>& value_of) {
+  const Reading r = read_text("a.geojson", houses_with(field, value_of), named(field));
+  for (const Problem& problem : r.report.problems())
+    if (problem.code == ProblemCode::implausible_size) return problem.detail;
+  return "no doubt";
+}
+
+TEST(DoubtfulHeights, StoreysAreToldByTheirName) {
+  const auto up_to_8 = [](int n) { return 2.0 + n / 2; };
+  EXPECT_THAT(doubt_about("Etagen", up_to_8), AllOf(HasSubstr("Etagen holds whole numbers, of which a typical one is 5"),
+                                                    HasSubstr("--storeys-field Etagen"), HasSubstr("--floor-height")));
+  EXPECT_EQ(doubt_about("h", up_to_8), "no doubt") << "heights in whole metres";
+  EXPECT_EQ(doubt_about("Etagen", [](int n) { return 2.5 + n; }), "no doubt");
+}
+
+TEST(DoubtfulHeights, SmallWholeNumbersAreToldByAnyName) {
+  EXPECT_THAT(doubt_about("KAISU", [](int n) { return 1.0 + n % 3; }), HasSubstr("are they storeys?"));
+  EXPECT_THAT(doubt_about("code", [](int n) { return 1.0 + n % 3; }), HasSubstr("storeys, or codes"));
+  EXPECT_EQ(doubt_about("h", [](int n) { return 2.8 + n % 3; }), "no doubt");
+}
+
+TEST(DoubtfulHeights, AreasAndOtherNumbersAreTold) {
+  EXPECT_THAT(doubt_about("area", [](int n) { return 60.0 + 5.0 * n; }), HasSubstr("as large as the areas of the outlines"));
+  // Half of the town would be towers of 130 m and more, on 10 m × 12 m: a street's numbers
+  EXPECT_THAT(doubt_about("number", [](int n) { return 10.0 + 25.0 * n; }),
+              AllOf(HasSubstr("a typical one is 160"), HasSubstr("another unit"), HasSubstr("--height-field")));
+  EXPECT_EQ(doubt_about("h", [](int n) { return n == 0 ? 160.0 : 10.0 + n; }), "no doubt");
+}
+
+TEST(DoubtfulHeights, ValuesThatNoBuildingHasCount) {
+  const auto many_beyond = [](int n) { return n < 2 ? 20.0 : 4000.0 + n; };
+  EXPECT_THAT(doubt_about("id", many_beyond), HasSubstr("a typical one is 40"));
+  EXPECT_EQ(doubt_about("h", [](int n) { return n < 6 ? 9.5 + n : 9999.0; }), "no doubt") << "9999 means unknown";
+}
+
+TEST(DoubtfulHeights, FeetAreToldByTheNameOfTheirField) {
+  const auto some = [](int n) { return 20.5 + n; };
+  EXPECT_THAT(doubt_about("heightft", some), AllOf(HasSubstr("are they feet?"), HasSubstr("rename it to height_ft")));
+  for (const std::string name : {"height_ft", "HeightFt", "height (ft)", "HEIGHTFEET"}) {
+    const Reading r = read_text("a.geojson", houses_with(name, some), named(name));
+    EXPECT_THAT(r.source.notes, ElementsAre(HasSubstr("12 heights are of the field " + name + ", which is in feet")));
+    EXPECT_NEAR(r.city().points_of(r.city().buildings()[0])[0].z, 20.5 * 0.3048, 1e-9) << name;
+  }
+}
+
+TEST(NamedHeightField, WithoutAnyNumberIsRefused) {
+  const std::string text = row_of_houses([](int) { return R"("street":"East 86th","height":9)"; });
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_text("a.geojson", text, named("street")); }),
+              AllOf(HasSubstr("the field street has a number in no feature"), HasSubstr("fields with numbers: height"),
+                    HasSubstr("--height-field")));
+}
+
+TEST(NamedHeightField, IsToldWhereOthersTakeItsPlace) {
+  const Reading r =
+      read_text("a.geojson", row_of_houses([](int n) { return n < 2 ? R"("h":7,"height":9)" : R"("height":9.5)"; }), named("h"));
+  EXPECT_THAT(r.source.notes, ElementsAre(HasSubstr("10 heights are of the field height, where h has none")));
+}
+
+}  // namespace
+}  // namespace farlod::ingest::test
