@@ -95,6 +95,8 @@ void add_quantities(py::module_& module) {
           py::arg("word"))
       .def_readwrite("horizons", &Quantities::horizons)
       .def_readwrite("horizon_distances", &Quantities::horizon_distances)
+      .def_readwrite("wall_sectors", &Quantities::wall_sectors)
+      .def_readwrite("eye_field_deg", &Quantities::eye_field_deg)
       .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, sky_patch_words), py::arg("patches"))
       .def(
           "set_sun",
