@@ -67,6 +67,18 @@ TEST_F(PackedTown, ViewsBySolidAngleAreOfTheSolidAngle) {
   EXPECT_EQ(solid.number(0, "view_sky_sphere"), cosine.number(0, "view_sky_sphere"));
 }
 
+/// Horizons and hours of sunshine have no weight.
+TEST_F(PackedTown, HorizonsAreTheSameBesideSolidAngles) {
+  const std::string quantities = "--horizons 8 --sun 2026-06-21 --quantity horizon_distance,shadow_patches" + at_crossing;
+  folder.must("farlod-svf a.farlod -o o.csv " + quantities);
+  const CsvTable cosine = table("o.csv");
+  folder.must("farlod-svf a.farlod -o o.csv --sky solid " + quantities);
+  const CsvTable solid = table("o.csv");
+  EXPECT_NE(solid.number(0, "svf_solid"), cosine.number(0, "svf"));
+  for (const char* column : {"horizon_000", "horizon_135", "horizon_270", "distance_270", "sunlit_h", "shadow_1"})
+    EXPECT_EQ(solid.text(0, column), cosine.text(0, column)) << column;
+}
+
 TEST_F(PackedTown, ViewsAreBandsOfARaster) {
   folder.must("farlod-svf a.farlod -o o.tif --grid 20 --rays 100 --quantity view_eye,view_factors --wall-sectors 8");
   EXPECT_THAT(band_names(folder.path("o.tif")),
