@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/view_columns.hpp"
 
-#include <fmt/core.h>
-
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -15,6 +14,13 @@ namespace {
 /// What is seen, by the word of its column.
 using ViewWords = std::vector<std::pair<std::string, std::string>>;
 
+/// "30" or "22.5".
+std::string degrees_text(double degrees) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", degrees);
+  return text.data();
+}
+
 ViewWords view_words(std::size_t wall_sectors) {
   constexpr std::array<std::pair<const char*, const char*>, 8> eighths{{{"n", "north"},
                                                                         {"ne", "north-east"},
@@ -25,11 +31,12 @@ ViewWords view_words(std::size_t wall_sectors) {
                                                                         {"w", "west"},
                                                                         {"nw", "north-west"}}};
   ViewWords words{{"sky", "sky"}, {"ground", "ground"}, {"roof", "roofs"}};
-  const double half_sector_deg = 180.0 / static_cast<double>(wall_sectors);
-  for (std::size_t n = 0; n < eighths.size(); n += eighths.size() / wall_sectors)
-    words.emplace_back(
-        fmt::format("wall_{}", eighths[n].first),
-        fmt::format("walls that face {}, within {:g} degrees of its true azimuth", eighths[n].second, half_sector_deg));
+  const std::string within =
+      ", within " + degrees_text(180.0 / static_cast<double>(wall_sectors)) + " degrees of its true azimuth";
+  for (std::size_t n = 0; n < eighths.size(); n += eighths.size() / wall_sectors) {
+    const auto& [word, azimuth] = eighths.at(n);
+    words.emplace_back(std::string("wall_") + word, std::string("walls that face ") + azimuth + within);
+  }
   words.emplace_back("crown", "crowns of trees, as if nothing passed them");
   words.emplace_back("other", "undersides");
   return words;
@@ -39,7 +46,7 @@ ViewWords view_words(std::size_t wall_sectors) {
 void describe_view(const Quantities& quantities, const std::string& ending, const std::string& what,
                    std::vector<ColumnDescription>& columns) {
   for (const auto& [word, meaning] : view_words(quantities.wall_sectors))
-    columns.push_back({fmt::format("view_{}{}", word, ending), "1", fmt::format("share of {}: {}", what, meaning)});
+    columns.push_back({"view_" + (word + ending), "1", "share of " + what + ": " + meaning});
 }
 
 }  // namespace
@@ -66,8 +73,8 @@ void describe_views_below(const Quantities& quantities, std::vector<ColumnDescri
 
 void describe_views_of_cube(const Quantities& quantities, std::vector<ColumnDescription>& columns) {
   for (const FaceOfCube& face : faces_of_cube)
-    describe_view(quantities, fmt::format("_{}", face.word),
-                  fmt::format("the view of the {} face of a cube, weighted by the cosine", face.meaning), columns);
+    describe_view(quantities, std::string("_") + face.word,
+                  std::string("the view of the ") + face.meaning + " face of a cube, weighted by the cosine", columns);
 }
 
 void describe_views_of_sphere(const Quantities& quantities, std::vector<ColumnDescription>& columns) {
@@ -75,9 +82,8 @@ void describe_views_of_sphere(const Quantities& quantities, std::vector<ColumnDe
 }
 
 void describe_views_of_eye(const Quantities& quantities, std::vector<ColumnDescription>& columns) {
-  describe_view(quantities, "_eye",
-                fmt::format("the solid angle within {:g} degrees of the horizontal, at all azimuths", quantities.eye_field_deg),
-                columns);
+  const std::string field = degrees_text(quantities.eye_field_deg);
+  describe_view(quantities, "_eye", "the solid angle within " + field + " degrees of the horizontal, at all azimuths", columns);
 }
 
 }  // namespace farlod
