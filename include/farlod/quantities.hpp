@@ -31,6 +31,7 @@ inline constexpr std::array<Word<SkyPatchSet>, 3> sky_patch_words{
 
 /// What is computed beside the sky view factor, from the same horizons. Where a receiver is answered by rays alone
 /// (EvaluationMethod of docs/stages/evaluate.md), the same is made of rays for each azimuth.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): members stand by subject, and there are few of it
 struct Quantities {
   /// The share of the sky's solid angle: column `svf_solid`.
   bool svf_solid = false;
