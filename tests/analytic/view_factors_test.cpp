@@ -304,12 +304,12 @@ double wall_in_field(double height_m, double away_m, double half_field) {
 }
 
 TEST_F(AroundAPlace, TheEyeSeesABandAroundTheHorizontal) {
-  const auto eye_m = static_cast<double>(packed_eye_m);
+  const auto height_m = static_cast<double>(packed_eye_m);
   for (const double field_deg : {30.0, 10.0, 60.0}) {
     SCOPED_TRACE(field_deg);
     const double field = field_deg / 180.0 * pi, above_right = wall_in_field(street_height_m, to_right_m, field),
                  above_left = wall_in_field(street_height_m, to_left_m, field),
-                 below_right = wall_in_field(eye_m, to_right_m, field), below_left = wall_in_field(eye_m, to_left_m, field);
+                 below_right = wall_in_field(height_m, to_right_m, field), below_left = wall_in_field(height_m, to_left_m, field);
     for (const Engine engine : engines_of_views) {
       const Views got = packed.columns(engine, {.view_eye = true, .eye_field_deg = field_deg});
       EXPECT_NEAR(sum_of_classes(got, "_eye"), 1.0, 1e-5);
