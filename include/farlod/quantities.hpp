@@ -31,6 +31,7 @@ inline constexpr std::array<Word<SkyPatchSet>, 3> sky_patch_words{
 
 /// What is computed beside the sky view factor, from the same horizons. Where a receiver is answered by rays alone
 /// (EvaluationMethod of docs/stages/evaluate.md), the same is made of rays for each azimuth.
+// NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): members stand by subject, and there are few of it
 struct Quantities {
   /// The share of the sky's solid angle: column `svf_solid`.
   bool svf_solid = false;
@@ -78,15 +79,31 @@ struct Quantities {
   /// What comes from the CIE's overcast sky, as a share of what a level plane in the open gets: column `sky_component`. Of a
   /// wall it is the vertical sky component. Crowns take their share, as of irradiation.
   bool sky_component = false;
-  /// What fills a receiver's view, by class, of all directions before its front, weighted by the cosine: columns `view_sky`,
-  /// `view_ground`, `view_roof`, `view_wall_n`, `view_wall_e`, `view_wall_s`, `view_wall_w` (walls by the quarter of the turn
-  /// that the side seen faces, centred at true north, east, south, west), `view_crown` (of trees, as if nothing passed them),
-  /// `view_other` (undersides). They add up to 1; of a city without trees `view_sky` is `svf`. What is met nowhere below
-  /// the horizontal is ground. Takes `rays` rays against the whole city, with its trees, whatever the engine.
+  /// What fills a receiver's view, by class, of all directions before its front, weighted by the cosine (with
+  /// SkyWeight::solid_angle all alike): columns `view_sky`, `view_ground`, `view_roof`, `view_wall_n`, `view_wall_e`,
+  /// `view_wall_s`, `view_wall_w` (walls by the part of the turn that the side seen faces, see `wall_sectors`), `view_crown` (of
+  /// trees, as if nothing passed them), `view_other` (undersides). They add up to 1; of a city without trees `view_sky` is `svf`.
+  /// What is met nowhere below the horizontal is ground. Takes `rays` rays against the whole city, with its trees, whatever the
+  /// engine.
   bool view_factors = false;
   /// The parts of the same that lie below the horizontal: columns `view_ground_below`, `view_roof_below`, `view_wall_n_below` …,
   /// `view_crown_below`, `view_other_below`. Of a receiver that looks straight up, all are 0.
   bool view_factors_below = false;
+  /// The same of the six faces of a small cube, weighted by the cosine to each, whatever the receiver's normal: columns
+  /// `view_sky_up`, `view_ground_up` … of the face that looks up, then `_down`, `_north`, `_east`, `_south`, `_west` by true
+  /// azimuths. Those of a face are the view factors of a receiver that looks there, and add up to 1. Not on surfaces.
+  bool view_cube = false;
+  /// The same of all directions around the place alike: shares of the sphere's solid angle, columns `view_sky_sphere`,
+  /// `view_ground_sphere` …, which add up to 1. Not on surfaces.
+  bool view_sphere = false;
+  /// The same of a person who turns around: of all directions whose elevation is between ±`eye_field_deg`, alike. Columns
+  /// `view_sky_eye`, `view_ground_eye` …, which add up to 1; `view_crown_eye` is the green view. Not on surfaces.
+  bool view_eye = false;
+  /// Half the height of that field, 1 to 90; 90 is the whole sphere.
+  double eye_field_deg = 30.0;
+  /// Parts of the turn by which walls are told apart in all of these: 4, or 8 with `view_wall_ne` between `view_wall_n` and
+  /// `view_wall_e`, and so on. Each is centred at its true azimuth.
+  std::size_t wall_sectors = 4;
   /// What crowns of trees do to the sky, by the rule of `canopy`; a package without trees has none. `svf`, horizons and all else
   /// stay those of buildings and ground.
   ///
@@ -121,7 +138,11 @@ struct Quantities {
   /// Those that crowns dim, where a package has some.
   [[nodiscard]] bool any_dimmed_by_crowns() const { return any_of_light() || sky_component || sunlit_total; }
   /// Those that are seen by rays against the whole city, crowns included.
-  [[nodiscard]] bool any_seen_by_rays() const { return shadow_patches || view_factors || view_factors_below; }
+  [[nodiscard]] bool any_seen_by_rays() const { return shadow_patches || any_of_views(); }
+  /// Those that say what fills the view.
+  [[nodiscard]] bool any_of_views() const { return view_factors || view_factors_below || any_of_places(); }
+  /// Those that are of a place, not of a surface: receivers on surfaces have none.
+  [[nodiscard]] bool any_of_places() const { return view_cube || view_sphere || view_eye; }
   /// Those that know SkyWeight::cosine alone.
   [[nodiscard]] FARLOD_EXPORT bool any_weighted() const;
 };

@@ -82,9 +82,17 @@ void add_canopy(py::class_<Quantities>& quantities) {
           py::arg("rule"));
 }
 
+/// Numbers that are chosen, as properties of the quantities themselves.
+void add_numbers_of(py::class_<Quantities>& quantities) {
+  quantities.def_readwrite("horizons", &Quantities::horizons)
+      .def_readwrite("wall_sectors", &Quantities::wall_sectors)
+      .def_readwrite("eye_field_deg", &Quantities::eye_field_deg);
+}
+
 void add_quantities(py::module_& module) {
   py::class_<Quantities> exposed(module, "Quantities");
   add_canopy(exposed);
+  add_numbers_of(exposed);
   add_light_of(exposed);
   exposed.def(py::init<>())
       .def(
@@ -93,7 +101,6 @@ void add_quantities(py::module_& module) {
             if (!ask_for(word, quantities)) throw InvalidArgument("there is no quantity \"" + word + "\"");
           },
           py::arg("word"))
-      .def_readwrite("horizons", &Quantities::horizons)
       .def_readwrite("horizon_distances", &Quantities::horizon_distances)
       .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, sky_patch_words), py::arg("patches"))
       .def(

@@ -28,6 +28,7 @@ from .staging import Staging
 
 QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "sunlit_total", "shadow_patches",
               "irradiation", "irradiance", "illuminance", "shade", "sky_component", "view_factors", "view_factors_below",
+              "view_cube", "view_sphere", "view_eye",
               "svf_total", "svfaveg", "directional_vegetation", "shares"]
 QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
@@ -35,7 +36,8 @@ QUANTITIES_HELP = (
     "each patch of the sky; sunlit: hours of sunshine, which need a day or a year; shadow_patches: what hides each of the 153 of "
     "UMEP, as bits; irradiation, in kWh/m², irradiance, in W/m², illuminance, in lx, and shade: those of a period; "
     "sky_component: light of an overcast sky; view_factors: what is seen of sky, ground, roofs, walls by the azimuth that they "
-    "face, and crowns; view_factors_below: what of it lies below the horizontal; with the trees of a package svf_total (and "
+    "face, and crowns; view_factors_below: what of it lies below the horizontal; view_cube: the same of the six faces "
+    "of a cube; view_sphere: of all directions around; view_eye: of a field at eye level, such as the green view; with the trees of a package svf_total (and "
     "svfveg), svfaveg, directional_vegetation: both of the halves of the sky as UMEP has them; and the shares of sky, "
     "vegetation and building."
 )
@@ -79,6 +81,10 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         self.add_optional_number("HORIZONS", "Azimuths of horizon", "Default: 36.", 4, 3600, whole=True, advanced=True)
         patches = "145: Tregenza's; 577: Reinhart's. For sky_patches."
         self.add_choice("SKY_PATCHES", "Patches of the sky", patches, ["145", "577"], advanced=True)
+        sectors = "8: north, north-east and so on. For view_factors and its like."
+        self.add_choice("WALL_SECTORS", "Azimuths of walls", sectors, ["4", "8"], advanced=True)
+        eye = "For view_eye: degrees above and below the horizontal. Default: 30."
+        self.add_optional_number("EYE_FIELD", "Field of the eye (°)", eye, 1.0, 90.0, advanced=True)
         sky = "cosine: svf; solid: svf_solid, which weighs all directions alike."
         self.add_choice("SKY", "Weight of the sky", sky, ["cosine", "solid"], advanced=True)
 
@@ -143,6 +149,10 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         arguments += self.number_argument(parameters, "HORIZONS", "--horizons", context)
         if "sky_patches" in quantities:
             arguments += self.choice_argument(parameters, "SKY_PATCHES", "--sky-patches", context)
+        if any(name.startswith("view_") for name in quantities):
+            arguments += self.choice_argument(parameters, "WALL_SECTORS", "--wall-sectors", context)
+        if "view_eye" in quantities:
+            arguments += self.number_argument(parameters, "EYE_FIELD", "--eye-field", context)
         arguments += self.choice_argument(parameters, "SKY", "--sky", context)
         arguments += self.choice_argument(parameters, "ENGINE", "--engine", context)
         arguments += self.flag_argument(parameters, "BOUNDS", "--bounds", context)

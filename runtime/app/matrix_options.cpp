@@ -41,6 +41,8 @@ void resolve_energyplus(SvfOptions& o) {
   if (!o.city_file.empty()) refuse("it goes with a table of surfaces, not with --city: leave one of the two out");
   if (o.evaluation.weight != SkyWeight::cosine) refuse("view factors are weighted by the cosine: leave --sky out");
   if (o.shard) refuse("shards compute sky view factors alone: give it with --merge");
+  if (o.evaluation.further.wall_sectors != Quantities().wall_sectors)
+    refuse("its objects have walls by four azimuths: leave --wall-sectors out");
   o.evaluation.further.view_factors = true;
 }
 

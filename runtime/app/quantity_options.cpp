@@ -137,6 +137,27 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
       ->group("Quantities");
 }
 
+void add_view_options(CLI::App& app, RawQuantities& raw) {
+  app.add_option("--wall-sectors", raw.wall_sectors,
+                 "With view_factors and its like: tell walls by 4 parts of the turn (default) or 8: north, north-east, ...")
+      ->check(one_of_words({"4", "8"}))
+      ->group("Quantities");
+  app.add_option("--eye-field", raw.eye_field_deg,
+                 "With view_eye: what is seen within so many degrees above and below the horizontal (default: 30); 90 is all "
+                 "around")
+      ->check(between(1.0, 90.0))
+      ->group("Quantities");
+}
+
+/// Sets what goes with the quantities that say what fills the view.
+void resolve_views(const RawQuantities& raw, Quantities& quantities) {
+  if (raw.wall_sectors > 0) quantities.wall_sectors = raw.wall_sectors;
+  if (raw.eye_field_deg) quantities.eye_field_deg = *raw.eye_field_deg;
+  if (raw.wall_sectors > 0 && !quantities.any_of_views())
+    throw CLI::ValidationError("--wall-sectors", "it goes with view_factors, view_cube, view_sphere or view_eye (--quantity)");
+  if (raw.eye_field_deg && !quantities.view_eye) throw CLI::ValidationError("--eye-field", "it goes with --quantity view_eye");
+}
+
 }  // namespace
 
 std::string words_of_unweighted() { return words_that(is_not_weighted, " and "); }
@@ -154,6 +175,7 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
                  "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")
       ->check(one_of_words({std::to_string(tregenza_patches), std::to_string(reinhart_patches)}))
       ->group("Quantities");
+  add_view_options(app, raw);
   add_sun_options(app, raw);
   add_canopy_options(app, raw);
 }
@@ -173,6 +195,7 @@ RequestedQuantities resolved(const RawQuantities& raw, const OutputFormat* forma
   if (raw.horizons > 0) requested.further.horizons = raw.horizons;
   if (raw.sky_patches > 0)
     requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;
+  resolve_views(raw, requested.further);
   if (!raw.sun.empty()) requested.sunshine = period_of(raw.sun, raw.sun_step_minutes);
   requested.further.canopy = canopy_of(raw, (format != nullptr && format->is_for_solweig) || requested.sunshine ||
                                                 requested.further.any_of_canopies() || requested.further.any_dimmed_by_crowns());

@@ -31,7 +31,8 @@ struct RawQuantities {
   std::string quantities, sun, canopy_rule = "umep";
   std::optional<double> transmissivity, extinction_per_m;
   bool leaf_off = false;
-  std::size_t horizons = 0, sky_patches = 0, sun_step_minutes = 0;
+  std::size_t horizons = 0, sky_patches = 0, sun_step_minutes = 0, wall_sectors = 0;
+  std::optional<double> eye_field_deg;
 };
 
 /// What they mean. The sun's positions depend on where the package is, and are not among the quantities yet.

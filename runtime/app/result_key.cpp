@@ -91,6 +91,9 @@ void add_quantities(const Quantities& q, AnswerKey& key) {
   if (q.sky_patches != SkyPatchSet::none)
     key.emplace_back("--sky-patches",
                      fmt::format("{}", q.sky_patches == SkyPatchSet::reinhart ? reinhart_patches : tregenza_patches));
+  if (q.any_of_views() && q.wall_sectors != Quantities().wall_sectors)
+    key.emplace_back("--wall-sectors", fmt::format("{}", q.wall_sectors));
+  if (q.view_eye) key.emplace_back("--eye-field", fmt::format("{:g}", q.eye_field_deg));
 }
 
 /// The last part of a path that names a folder, with or without a slash behind it.

@@ -314,6 +314,13 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   o.sunshine = requested.sunshine;
 }
 
+void refuse_places_on_surfaces(const SvfOptions& o) {
+  if (o.source == ReceiverSource::surfaces && o.evaluation.further.any_of_places())
+    throw CLI::ValidationError("--quantity",
+                               "view_cube, view_sphere and view_eye are what is seen around a place, half of which a surface "
+                               "hides: leave them out, or give --points instead of --surfaces");
+}
+
 void resolve(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
   resolve_place(raw, o);
@@ -324,6 +331,7 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   o.evaluation.engine = *value_of(engine_words, raw.engine);
   o.evaluation.weight = *value_of(sky_weight_words, raw.sky);
   resolve_quantities(raw, o);
+  refuse_places_on_surfaces(o);
   resolve_work(raw.shard, o);
   resolve_matrix(o);
   require_accuracy(o.evaluation);

@@ -137,13 +137,20 @@ std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least) {
   return (at_least + quantities.horizons - 1) / quantities.horizons * quantities.horizons;
 }
 
+ViewRanges view_ranges_of(const Quantities& quantities) {
+  return {.all = range_of(Quantity::view_factors, quantities),
+          .below = range_of(Quantity::view_factors_below, quantities),
+          .cube = range_of(Quantity::view_cube, quantities),
+          .sphere = range_of(Quantity::view_sphere, quantities),
+          .eye = range_of(Quantity::view_eye, quantities)};
+}
+
 FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest)
     : quantities_(quantities),
       size_(columns_of(quantities).size()),
       crowns_(range_of_crowns(quantities)),
       shadow_patches_(range_of(Quantity::shadow_patches, quantities)),
-      views_(range_of(Quantity::view_factors, quantities)),
-      views_below_(range_of(Quantity::view_factors_below, quantities)),
+      views_(view_ranges_of(quantities)),
       azimuths_(sampling_for(quantities, azimuths, manifest)),
       turns_(turns_of(azimuths_, manifest)),
       halves_(azimuths_, manifest) {
@@ -238,10 +245,19 @@ void FurtherQuantities::add_shadow_patches(const ProfiledPacket&, QuantityColumn
   columns.skip(shadow_patches_.count);
 }
 
-/// Profiles do not tell them: their places are left for store_view_factors, as those of the next.
-void FurtherQuantities::add_views(const ProfiledPacket&, QuantityColumns& columns) const { columns.skip(views_.count); }
+/// Profiles do not tell them: their places are left for store_view_factors, as those of the next, and for store_views_around.
+void FurtherQuantities::add_views(const ProfiledPacket&, QuantityColumns& columns) const { columns.skip(views_.all.count); }
 void FurtherQuantities::add_views_below(const ProfiledPacket&, QuantityColumns& columns) const {
-  columns.skip(views_below_.count);
+  columns.skip(views_.below.count);
+}
+void FurtherQuantities::add_views_of_cube(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(views_.cube.count);
+}
+void FurtherQuantities::add_views_of_sphere(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(views_.sphere.count);
+}
+void FurtherQuantities::add_views_of_eye(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(views_.eye.count);
 }
 
 void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {

@@ -38,6 +38,12 @@ void trace_horizon_distances(const Occluder& city, const Point3f& origin, const 
 /// horizons.
 [[nodiscard]] std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least);
 
+/// Where a receiver's values have its views, of each of the quantities that say what fills the view.
+struct ViewRanges {
+  ColumnRange all, below, cube, sphere, eye;
+};
+[[nodiscard]] ViewRanges view_ranges_of(const Quantities& quantities);
+
 /// Takes the values of the receivers of a packet, column by column.
 class QuantityColumns {
  public:
@@ -89,7 +95,8 @@ class FurtherQuantities {
   [[nodiscard]] ProfileRows profile_rows() const { return {.solid_sky = quantities_.svf_solid, .light_sky = needs_light()}; }
   /// Whether anything is made of profiles: canopies, shadow patches and views alone may be traced without them.
   [[nodiscard]] bool needs_profiles() const {
-    return size_ > crowns_.count + shadow_patches_.count + views_.count + views_below_.count;
+    return size_ > crowns_.count + shadow_patches_.count + views_.all.count + views_.below.count + views_.cube.count +
+                       views_.sphere.count + views_.eye.count;
   }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
   /// Whether something is made of light, which crowns dim.
@@ -103,9 +110,8 @@ class FurtherQuantities {
   [[nodiscard]] const ColumnRange& canopy_columns() const { return crowns_; }
   /// Where the shadow patches are, which rays find: evaluate() leaves their places out.
   [[nodiscard]] const ColumnRange& shadow_columns() const { return shadow_patches_; }
-  /// Where the views are, which rays find, and those below the horizontal: evaluate() leaves their places out.
-  [[nodiscard]] const ColumnRange& view_columns() const { return views_; }
-  [[nodiscard]] const ColumnRange& view_below_columns() const { return views_below_; }
+  /// Where the views are, which rays find: evaluate() leaves their places out.
+  [[nodiscard]] const ViewRanges& view_columns() const { return views_; }
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
@@ -130,6 +136,9 @@ class FurtherQuantities {
   void add_sky_component(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_views(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_views_below(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_views_of_cube(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_views_of_sphere(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_views_of_eye(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
  private:
   void divide_into_patches();
@@ -189,7 +198,8 @@ class FurtherQuantities {
 
   Quantities quantities_;
   std::size_t size_;
-  ColumnRange crowns_, shadow_patches_, views_, views_below_;
+  ColumnRange crowns_, shadow_patches_;
+  ViewRanges views_;
   AzimuthSampling azimuths_;
   std::vector<double> turns_;  ///< of each azimuth: clockwise from true north, as a share of the turn
   std::vector<std::size_t> azimuth_of_horizon_;

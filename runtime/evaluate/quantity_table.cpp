@@ -11,7 +11,7 @@
 
 #include "evaluate/crown_columns.hpp"
 #include "evaluate/further_quantities.hpp"
-#include "evaluate/view_factors.hpp"
+#include "evaluate/view_columns.hpp"
 #include "farlod/shadow_patches.hpp"
 #include "radiation/light_table.hpp"
 
@@ -244,17 +244,37 @@ constexpr auto table = std::to_array<QuantityRow>({
      .describe = describe_sky_component,
      .add = &FurtherQuantities::add_sky_component},
     {.quantity = Quantity::view_factors,
-     .word = {.word = "view_factors", .meaning = "what is seen: sky, ground, roofs, walls by azimuth, crowns"},
+     .word = {.word = "view_factors",
+              .meaning = "what is seen: sky, ground, roofs, walls by azimuth, crowns",
+              .is_weighted = false},
      .is_asked = is_flagged<&Quantities::view_factors>,
      .ask = set_flag<&Quantities::view_factors>,
      .describe = describe_views,
      .add = &FurtherQuantities::add_views},
     {.quantity = Quantity::view_factors_below,
-     .word = {.word = "view_factors_below", .meaning = "what of it lies below the horizontal"},
+     .word = {.word = "view_factors_below", .meaning = "what of it lies below the horizontal", .is_weighted = false},
      .is_asked = is_flagged<&Quantities::view_factors_below>,
      .ask = set_flag<&Quantities::view_factors_below>,
      .describe = describe_views_below,
      .add = &FurtherQuantities::add_views_below},
+    {.quantity = Quantity::view_cube,
+     .word = {.word = "view_cube", .meaning = "the same of the six faces of a cube"},
+     .is_asked = is_flagged<&Quantities::view_cube>,
+     .ask = set_flag<&Quantities::view_cube>,
+     .describe = describe_views_of_cube,
+     .add = &FurtherQuantities::add_views_of_cube},
+    {.quantity = Quantity::view_sphere,
+     .word = {.word = "view_sphere", .meaning = "of all directions around", .is_weighted = false},
+     .is_asked = is_flagged<&Quantities::view_sphere>,
+     .ask = set_flag<&Quantities::view_sphere>,
+     .describe = describe_views_of_sphere,
+     .add = &FurtherQuantities::add_views_of_sphere},
+    {.quantity = Quantity::view_eye,
+     .word = {.word = "view_eye", .meaning = "of a field at eye level: green view", .is_weighted = false},
+     .is_asked = is_flagged<&Quantities::view_eye>,
+     .ask = set_flag<&Quantities::view_eye>,
+     .describe = describe_views_of_eye,
+     .add = &FurtherQuantities::add_views_of_eye},
     {.quantity = Quantity::svf_total,
      .word = {.word = "svf_total", .meaning = "and svfveg", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::svf_total>,

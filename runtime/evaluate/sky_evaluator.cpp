@@ -13,6 +13,7 @@
 #include "evaluate/sky_method.hpp"
 #include "evaluate/traced_patches.hpp"
 #include "evaluate/view_factors.hpp"
+#include "evaluate/views_around.hpp"
 #include "horizon/far_terrain_edges.hpp"
 #include "package/pixel_heights.hpp"
 #include "scene/canopy_around.hpp"
@@ -148,6 +149,9 @@ SkyEvaluator::SkyEvaluator(std::unique_ptr<const Evaluation> evaluation)
   method(near_scene_alone) = near_scene_method(*evaluation_, false);
   method(whole_city) = whole_city_method(*evaluation_);
   method(pixels_and_whole_city) = pixel_method(*evaluation_, whole_city_method(*evaluation_));
+  const Quantities& further = settings().further;
+  if (further.view_cube || further.view_sphere) around_ = std::make_unique<const ViewsAround>(*this);
+  if (further.view_eye) eye_directions_ = eye_directions(further.eye_field_deg, settings().rays, this->package().grid().rotation);
 }
 
 SkyEvaluator::~SkyEvaluator() = default;
@@ -165,9 +169,10 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers
   const EvaluationMethod method = method_for(cell.cell);
   methods_[static_cast<std::size_t>(method)]->evaluate(cell, answers);
   if (light_of_little_sky_ && method == EvaluationMethod::horizons) light_of_little_sky_->improve(cell, answers);
-  if (settings().further.horizon_distances) find_horizon_distances(cell, answers);
-  if (settings().further.shadow_patches) find_shadow_patches(cell, answers);
-  if (settings().further.view_factors || settings().further.view_factors_below) find_view_factors(cell, answers);
+  const Quantities& further = settings().further;
+  if (further.horizon_distances) find_horizon_distances(cell, answers);
+  if (further.shadow_patches) find_shadow_patches(cell, answers);
+  if (further.any_of_views()) find_views(cell, answers);
 }
 
 void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const {
@@ -195,14 +200,18 @@ void SkyEvaluator::find_shadow_patches(const CellReceivers& cell, const SkyAnswe
   evaluation_->counter->add_times(start, scene_ready);
 }
 
-void SkyEvaluator::find_view_factors(const CellReceivers& cell, const SkyAnswers& answers) const {
+void SkyEvaluator::find_views(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = EvaluationCounter::Clock::now();
-  const WholeCityOnDemand& city = *evaluation_->city;
-  SeenScene scene{city.seen_from(cell.cell), city.surfaces()};
-  if (package().has_crowns()) scene.crowns = &city.crowns(settings().further.canopy);
+  const Evaluation& e = *evaluation_;
+  SeenScene scene{e.city->seen_from(cell.cell), e.city->surfaces()};
+  const Quantities& further = settings().further;
+  if (package().has_crowns()) scene.crowns = &e.city->crowns(further.canopy);
   const auto scene_ready = EvaluationCounter::Clock::now();
-  store_view_factors(cell, scene, evaluation_->directions, evaluation_->further, answers, evaluation_->stop);
-  evaluation_->counter->add_times(start, scene_ready);
+  if (further.view_factors || further.view_factors_below)
+    store_view_factors(cell, scene, e.directions, e.settings.weight, e.further, answers, e.stop);
+  if (around_) around_->store(cell, e.further, answers);
+  if (further.view_eye) store_views_of_eye(cell, scene, eye_directions_, e.further, answers, e.stop);
+  e.counter->add_times(start, scene_ready);
 }
 
 SkyParts SkyEvaluator::parts_of_sky(const CellReceivers& cell, const HemisphereDirections& directions) const {

@@ -15,6 +15,7 @@
 #include "base/grid.hpp"
 #include "evaluate/sky_answers.hpp"
 #include "farlod/evaluation.hpp"
+#include "farlod/point.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
@@ -52,6 +53,7 @@ inline constexpr std::size_t evaluation_method_count = 6;
 
 class LightOfLittleSky;
 class SkyMethod;
+class ViewsAround;
 struct Evaluation;
 struct HemisphereDirections;
 struct SkyParts;
@@ -94,11 +96,13 @@ class SkyEvaluator {
   /// The horizons of the receivers are answered already.
   void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_shadow_patches(const CellReceivers& cell, const SkyAnswers& answers) const;
-  void find_view_factors(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void find_views(const CellReceivers& cell, const SkyAnswers& answers) const;
 
   std::unique_ptr<const Evaluation> evaluation_;
   std::unique_ptr<const LightOfLittleSky> light_of_little_sky_;  ///< null where no light is asked for
   std::array<std::unique_ptr<const SkyMethod>, evaluation_method_count> methods_;
+  std::unique_ptr<const ViewsAround> around_;  ///< null where nobody asks for a cube or a sphere
+  std::vector<Point3d> eye_directions_;        ///< empty where nobody asks for Quantities::view_eye
 };
 
 /// Sky view factors of receivers by their numbers, with bounds where they are wanted (otherwise `low` and `high` are empty).

@@ -7,43 +7,32 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <span>
-#include <string>
-#include <utility>
 
 #include "base/cancellation.hpp"
-#include "base/expects.hpp"
+#include "evaluate/view_columns.hpp"
 #include "evaluate/visibility.hpp"
+#include "farlod/angle.hpp"
 #include "horizon/receiver_packet.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr std::array<std::pair<const char*, const char*>, view_class_count> view_words{
-    {{"sky", "sky"},
-     {"ground", "ground"},
-     {"roof", "roofs"},
-     {"wall_n", "walls that face north, by less than 45 degrees from true north"},
-     {"wall_e", "walls that face east"},
-     {"wall_s", "walls that face south"},
-     {"wall_w", "walls that face west"},
-     {"crown", "crowns of trees, as if nothing passed them"},
-     {"other", "undersides"}}};
-
-/// A share of the view of each class.
+/// A share of the view for each column; of the last there may be none.
 using Views = std::array<float, view_class_count>;
 
 /// The rays of a receiver in a part of its view, by what they meet.
 class PartOfView {
  public:
   void count(ViewClass met) { ++rays_[static_cast<std::size_t>(met)]; }
-  /// Divides the part's share of the view among its classes; all goes to one where there are no rays.
-  void add(float share, ViewClass without_rays, Views& views) const {
+  /// Divides the part's share of the view among its columns; all goes to one where there are no rays.
+  void add(float share, ViewClass without_rays, const ViewLayout& layout, Views& views) const {
     const std::uint32_t all = std::accumulate(rays_.begin(), rays_.end(), 0U);
-    if (all == 0) views[static_cast<std::size_t>(without_rays)] += share;
+    if (all == 0) views[layout.column_of(without_rays)] += share;
     for (std::size_t c = 0; c < view_class_count && all > 0; ++c)
-      views[c] += share * static_cast<float>(rays_[c]) / static_cast<float>(all);
+      views[layout.column_of(static_cast<ViewClass>(c))] += share * static_cast<float>(rays_[c]) / static_cast<float>(all);
   }
 
  private:
@@ -54,9 +43,14 @@ class PartOfView {
 struct PartsOfView {
   PartOfView sky, hidden, below;
 };
-using PartsOfPacket = std::array<PartsOfView, RayOrigins::lanes>;
 
-void look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towards, std::size_t count, PartsOfPacket& parts) {
+/// What the rays of a packet meet in one direction, and the bits of those that meet nothing solid.
+struct MetByPacket {
+  std::array<ViewClass, RayOrigins::lanes> seen{};
+  std::uint32_t free = 0;
+};
+
+MetByPacket look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towards, std::size_t count) {
   const Point3f direction = rounded(towards);
   const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
   const Occluder::Hits hits = scene.solid.occluder.nearest(origins, direction, least_distance_m, wanted);
@@ -65,15 +59,23 @@ void look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towa
       scene.crowns == nullptr
           ? 0
           : scene.crowns->met_before(hits.distances, origins, Occluder::Directions::all_of(direction), least_distance_m, wanted);
+  MetByPacket met;
   for (std::size_t l = 0; l < count; ++l) {
     const bool is_free = hits.distances[l] == std::numeric_limits<float>::infinity();
     // The city ends where its ground does; the ground goes on
     const ViewClass beyond = towards.z > 0.0 ? ViewClass::sky : ViewClass::ground;
-    const ViewClass met = is_free ? beyond : scene.surfaces.met(hits.triangles[l], direction);
-    const ViewClass seen = has_bit(crowns, l) ? ViewClass::crown : met;
-    PartsOfView& of = parts[l];
-    (towards.z <= 0.0 ? of.below : is_free ? of.sky : of.hidden).count(seen);
+    const ViewClass solid = is_free ? beyond : scene.surfaces.met(hits.triangles[l], direction);
+    met.seen[l] = has_bit(crowns, l) ? ViewClass::crown : solid;
+    if (is_free) met.free |= 1U << l;
   }
+  return met;
+}
+
+/// The share of a plane's view that lies below the horizontal.
+float share_below(const Point3f& normal, SkyWeight weight) {
+  if (weight == SkyWeight::cosine) return 0.5F * (1.0F - normal.z);
+  // A lune between the plane and the horizontal, as wide as the plane is tilted
+  return std::acos(std::clamp(normal.z, -1.0F, 1.0F)) / std::numbers::pi_v<float>;
 }
 
 /// The columns of a receiver.
@@ -81,17 +83,15 @@ struct ViewColumns {
   std::span<float> all, below;
 };
 
-void write(const PartsOfView& parts, const Receiver& receiver, float svf, const ViewColumns& columns) {
-  // The half of the sphere below the horizontal fills so much of the view of a tilted plane
-  const float below = 0.5F * (1.0F - receiver.normal.z);
+void write(const PartsOfView& parts, float below, float svf, const ViewLayout& layout, const ViewColumns& columns) {
   const float hidden = std::max(0.0F, 1.0F - below - svf);
   Views all{}, lower{};
   // Where svf knows more sky than there is room for, the lower half gives way
-  parts.below.add(std::max(0.0F, 1.0F - hidden - svf), ViewClass::other, lower);
+  parts.below.add(std::max(0.0F, 1.0F - hidden - svf), ViewClass::other, layout, lower);
   std::ranges::copy(std::span(lower).subspan(1).first(columns.below.size()), columns.below.begin());
   all = lower;
-  parts.sky.add(svf, ViewClass::sky, all);
-  parts.hidden.add(hidden, ViewClass::other, all);
+  parts.sky.add(svf, ViewClass::sky, layout, all);
+  parts.hidden.add(hidden, ViewClass::other, layout, all);
   std::ranges::copy(std::span(all).first(columns.all.size()), columns.all.begin());
 }
 
@@ -102,41 +102,83 @@ std::vector<Receiver> in_order_of_packets(const CellReceivers& cell, const std::
   return ordered;
 }
 
+/// Calls `f` for each packet of receivers that follow each other, with their places in the scene.
+template <class F>
+void for_each_packet(std::span<const Receiver> receivers, const SeenScene& scene, const F& f) {
+  for (std::size_t first = 0; first < receivers.size(); first += RayOrigins::lanes) {
+    const std::span<const Receiver> packet = receivers.subspan(first, std::min(RayOrigins::lanes, receivers.size() - first));
+    std::vector<Point3f> places;
+    for (const Receiver& r : packet) places.push_back(placed(r.p_cell, scene.solid.scene_from_cell_m));
+    f(packet, gathered(places));
+  }
+}
+
+/// Calls `f` with what a packet meets in each direction.
+template <class F>
+void for_each_direction(std::span<const Point3d> directions, const SeenScene& scene, const RayOrigins& origins, std::size_t count,
+                        const std::stop_token& stop, const F& f) {
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    if (k % directions_between_looks == 0) throw_if_cancelled(stop);
+    f(directions[k], look(scene, origins, directions[k], count));
+  }
+}
+
 }  // namespace
 
-void describe_views(const Quantities&, std::vector<ColumnDescription>& columns) {
-  for (const auto& [word, meaning] : view_words)
-    columns.push_back({std::string("view_") + word, "1", std::string("share of the view, weighted by the cosine: ") + meaning});
-}
-
-void describe_views_below(const Quantities&, std::vector<ColumnDescription>& columns) {
-  for (const auto& [word, meaning] : std::span(view_words).subspan(1))
-    columns.push_back(
-        {"view_" + (word + std::string("_below")), "1", std::string("share of the view, below the horizontal: ") + meaning});
-}
-
-void store_view_factors(const CellReceivers& cell, const SeenScene& scene, const SkyDirections& directions,
+void store_view_factors(const CellReceivers& cell, const SeenScene& scene, const SkyDirections& directions, SkyWeight weight,
                         const FurtherQuantities& quantities, const SkyAnswers& answers, const std::stop_token& stop) {
-  const ColumnRange all = quantities.view_columns(), below = quantities.view_below_columns();
+  const ViewRanges& ranges = quantities.view_columns();
+  const ViewLayout layout(quantities.quantities().wall_sectors);
   const std::vector<Receiver> ordered = in_order_of_packets(cell, stop);
   for_each_normal(ordered, [&](std::span<const Receiver> group) {
     const Point3f& n = group.front().normal;
     const std::vector<Point3d> around = directions.around(normalized(Point3d{n.x, n.y, n.z}));
-    for (std::size_t first = 0; first < group.size(); first += RayOrigins::lanes) {
-      const std::span<const Receiver> packet = group.subspan(first, std::min(RayOrigins::lanes, group.size() - first));
-      std::vector<Point3f> places;
-      for (const Receiver& r : packet) places.push_back(placed(r.p_cell, scene.solid.scene_from_cell_m));
-      const RayOrigins origins = gathered(places);
-      PartsOfPacket parts;
-      for (std::size_t k = 0; k < around.size(); ++k) {
-        if (k % directions_between_looks == 0) throw_if_cancelled(stop);
-        look(scene, origins, around[k], packet.size(), parts);
+    for_each_packet(group, scene, [&](std::span<const Receiver> receivers, const RayOrigins& origins) {
+      std::array<PartsOfView, RayOrigins::lanes> parts;
+      for_each_direction(around, scene, origins, receivers.size(), stop, [&](const Point3d& towards, const MetByPacket& met) {
+        for (std::size_t l = 0; l < receivers.size(); ++l) {
+          PartsOfView& of = parts[l];
+          (towards.z <= 0.0 ? of.below : has_bit(met.free, l) ? of.sky : of.hidden).count(met.seen[l]);
+        }
+      });
+      for (std::size_t l = 0; l < receivers.size(); ++l) {
+        const Receiver& r = receivers[l];
+        const std::span<float> values = answers.further.subspan(r.index * quantities.size(), quantities.size());
+        write(parts[l], share_below(r.normal, weight), answers.svf[r.index], layout,
+              {values.subspan(ranges.all.first, ranges.all.count), values.subspan(ranges.below.first, ranges.below.count)});
       }
-      for (std::size_t l = 0; l < packet.size(); ++l) {
-        const std::span<float> values = answers.further.subspan(packet[l].index * quantities.size(), quantities.size());
-        write(parts[l], packet[l], answers.svf[packet[l].index],
-              {values.subspan(all.first, all.count), values.subspan(below.first, below.count)});
-      }
+    });
+  });
+}
+
+std::vector<Point3d> eye_directions(double field_deg, std::size_t count, const GridRotation& rotation) {
+  const double highest = sin(Angle::degrees(field_deg));
+  std::vector<Point3d> directions;
+  for (std::size_t k = 0; k < count; ++k) {
+    // Rows alike in height are alike in solid angle; the golden section spreads them over the turn
+    const double z = highest * ((2.0 * static_cast<double>(k) + 1.0) / static_cast<double>(count) - 1.0);
+    const double turns = static_cast<double>(k) * std::numbers::phi, level = std::sqrt(1.0 - z * z);
+    const Angle azimuth = Angle::radians(2.0 * std::numbers::pi * (turns - std::floor(turns)));
+    directions.push_back(rotation.grid_from_city(Point3d{level * sin(azimuth), level * cos(azimuth), z}));
+  }
+  return directions;
+}
+
+void store_views_of_eye(const CellReceivers& cell, const SeenScene& scene, std::span<const Point3d> directions,
+                        const FurtherQuantities& quantities, const SkyAnswers& answers, const std::stop_token& stop) {
+  const ColumnRange& range = quantities.view_columns().eye;
+  const ViewLayout layout(quantities.quantities().wall_sectors);
+  const std::vector<Receiver> ordered = in_order_of_packets(cell, stop);
+  for_each_packet(ordered, scene, [&](std::span<const Receiver> packet, const RayOrigins& origins) {
+    std::array<PartOfView, RayOrigins::lanes> parts;
+    for_each_direction(directions, scene, origins, packet.size(), stop, [&](const Point3d&, const MetByPacket& met) {
+      for (std::size_t l = 0; l < packet.size(); ++l) parts[l].count(met.seen[l]);
+    });
+    for (std::size_t l = 0; l < packet.size(); ++l) {
+      Views views{};
+      parts[l].add(1.0F, ViewClass::other, layout, views);
+      std::ranges::copy(std::span(views).first(range.count),
+                        answers.further.subspan(packet[l].index * quantities.size() + range.first).begin());
     }
   });
 }

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <stop_token>
 #include <vector>
 
+#include "base/frame.hpp"
 #include "evaluate/further_quantities.hpp"
-#include "evaluate/quantity_table.hpp"
 #include "evaluate/sky_answers.hpp"
 #include "evaluate/sky_directions.hpp"
+#include "farlod/evaluation.hpp"
+#include "farlod/point.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "receivers/receiver.hpp"
@@ -23,16 +27,17 @@ struct SeenScene {
   const CrownOccluder* crowns = nullptr;  ///< null where there are none
 };
 
-/// What the columns of Quantities::view_factors are, in the order of ViewClass.
-void describe_views(const Quantities& quantities, std::vector<ColumnDescription>& columns);
-/// The same below the horizontal, where no sky is.
-void describe_views_below(const Quantities& quantities, std::vector<ColumnDescription>& columns);
+/// Stores the columns of Quantities::view_factors and ::view_factors_below of the receivers of a cell, whose svf is stored, by
+/// rays in their directions. Rays say how the sky is divided among sky and crowns, and what hides it among classes, and the lower
+/// half likewise; how large the three parts are tell svf and the receiver's normal, so that all add up to 1. A part that no ray
+/// lies in is `other`, but for the sky. `weight` is that of svf and of the directions. Throws Cancelled when `stop` is asked for.
+void store_view_factors(const CellReceivers& cell, const SeenScene& scene, const SkyDirections& directions, SkyWeight weight,
+                        const FurtherQuantities& quantities, const SkyAnswers& answers, const std::stop_token& stop);
 
-/// Stores the columns of both of the receivers of a cell, whose svf is stored, by rays in their directions. Rays say how the sky
-/// is divided among sky and crowns, and what hides it among classes, and the lower half likewise; how large the three parts are
-/// tell svf and the receiver's normal, so that all add up to 1. A part that no ray lies in is `other`, but for the sky. Throws
-/// Cancelled when `stop` is asked for.
-void store_view_factors(const CellReceivers& cell, const SeenScene& scene, const SkyDirections& directions,
+/// So many directions in the grid frame, within ±`field_deg` of the horizontal and alike in solid angle.
+[[nodiscard]] std::vector<Point3d> eye_directions(double field_deg, std::size_t count, const GridRotation& rotation);
+/// Stores the columns of Quantities::view_eye of the receivers of a cell: shares of these directions.
+void store_views_of_eye(const CellReceivers& cell, const SeenScene& scene, std::span<const Point3d> directions,
                         const FurtherQuantities& quantities, const SkyAnswers& answers, const std::stop_token& stop);
 
 }  // namespace farlod

@@ -42,7 +42,7 @@ HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, 
       horizons_(azimuths, PacketHorizon::Edges::tracked) {}
 
 void HorizonEngine::tell_profiles(ProfileRows rows, OnProfile on_profile) {
-  FARLOD_EXPECTS(weight_ == SkyWeight::cosine && jump_places_ == JumpPlaces::at_edge_ends);
+  FARLOD_EXPECTS(jump_places_ == JumpPlaces::at_edge_ends);
   profile_rows_ = rows;
   on_profile_ = std::move(on_profile);
   profile_.emplace(azimuths_);
@@ -183,7 +183,7 @@ void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPa
   profile_->gap_from.clear();
   profile_->gap_to.clear();
   profile_->gap_share.clear();
-  profile_->sky.resize(azimuths_.size());
+  profile_->sky.resize(weight_ == SkyWeight::cosine ? azimuths_.size() : 0);
   if (profile_rows_.solid_sky) {
     profile_->solid_sky.resize(azimuths_.size());
     (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, profile_->solid_sky);

@@ -62,8 +62,8 @@ class HorizonEngine {
   /// have no bounds.
   void see(PixelHorizon& pixels) { pixels_ = &pixels; }
   /// From now on, calls `on_profile(n, profile)` for each packet when its answer is known, with its number in the call, and what
-  /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Bounds do not change it. Only
-  /// with SkyWeight::cosine, and jumps at the ends of edges.
+  /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Bounds do not change it. With
+  /// SkyWeight::solid_angle it has no rows of sky by the cosine. Only with jumps at the ends of edges.
   using OnProfile = std::function<void(std::size_t n, SkyProfile& profile)>;
   void tell_profiles(ProfileRows rows, OnProfile on_profile);
 

@@ -109,7 +109,7 @@ double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSett
   const double of_crowns = uses_crowns(manifest, settings) ? (sizeof(Crown) + crown_bytes) * crowns_of(manifest) : 0.0;
   const Quantities& further = settings.sky.further;
   const double of_triangle = triangle_bytes + (settings.bounds || settings.sky.allowed_error ? exact_triangle_bytes : 0.0) +
-                             (further.view_factors || further.view_factors_below ? seen_triangle_bytes : 0.0);
+                             (further.any_of_views() ? seen_triangle_bytes : 0.0);
   return static_cast<double>(manifest.triangles) * of_triangle + bytes_of_directions(rays, settings.threads) + of_crowns;
 }
 

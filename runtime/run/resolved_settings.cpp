@@ -55,6 +55,9 @@ bool knows_illuminance(const LightInterval& interval) { return interval.direct_n
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
+  require_between("further.eye_field_deg", q.eye_field_deg, 1.0, 90.0);
+  if (q.wall_sectors != 4 && q.wall_sectors != 8)
+    throw InvalidArgument("further.wall_sectors is " + std::to_string(q.wall_sectors) + ": give 4 or 8");
   if (q.sunlit_total && !q.sun)
     throw InvalidArgument("further.sunlit_total is of the hours of further.sun, which has no value: give positions of the sun");
   if (q.horizon_distances && q.horizons == 0)

@@ -173,6 +173,10 @@ class SurfaceCells final : public CellsOfRun {
 void check(const SurfaceSettings& surfaces, const Quantities& quantities) {
   require_one_of("choice", surfaces.choice, SurfaceChoice::all);
   require_between("spacing_m", surfaces.spacing_m, 0.05, 1000.0);
+  if (quantities.any_of_places())
+    throw InvalidArgument(
+        "further.view_cube, view_sphere and view_eye are those of a place, and a surface hides half of what is around: leave "
+        "them out, or evaluate points");
   if (!surfaces.irradiation_threshold_kwh_m2) return;
   require_between("irradiation_threshold_kwh_m2", *surfaces.irradiation_threshold_kwh_m2, 0.0, 100'000.0);
   if (!quantities.irradiation)

@@ -15,9 +15,10 @@ namespace {
 ViewClass wall_facing(const Point3f& side, const package::Manifest& manifest) {
   // true azimuth = grid azimuth + convergence
   const Angle azimuth = azimuth_of(manifest.grid.rotation.city_from_grid(Point2d{side.x, side.y})) + manifest.convergence;
-  const auto quarters = static_cast<int>(std::floor(azimuth.radians() / (0.5 * std::numbers::pi) + 0.5));
-  const int wrapped = ((quarters % 4) + 4) % 4;
-  return static_cast<ViewClass>(static_cast<int>(ViewClass::wall_n) + wrapped);
+  constexpr auto slices = static_cast<int>(wall_slices);
+  const auto slice = static_cast<int>(std::floor(azimuth.radians() / (2.0 * std::numbers::pi / slices)));
+  const int wrapped = ((slice % slices) + slices) % slices;
+  return static_cast<ViewClass>(static_cast<int>(ViewClass::first_wall) + wrapped);
 }
 
 /// The class of a side of a building's surface, which looks there.

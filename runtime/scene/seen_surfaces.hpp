@@ -12,9 +12,12 @@
 
 namespace farlod {
 
-/// What a receiver may see. Walls go by the quarter of the turn that they face, centred at true north, east, south or west.
-enum class ViewClass : std::uint8_t { sky, ground, roof, wall_n, wall_e, wall_s, wall_w, crown, other };
-inline constexpr std::size_t view_class_count = 9;
+/// Parts of the turn by which walls are told apart, from true north clockwise: whole quarters and eighths that are centred at
+/// north consist of them.
+inline constexpr std::size_t wall_slices = 16;
+/// What a receiver may see. Walls are `first_wall` and those behind it, by the slice of the turn that they face.
+enum class ViewClass : std::uint8_t { sky, ground, roof, first_wall, crown = first_wall + wall_slices, other };
+inline constexpr std::size_t view_class_count = static_cast<std::size_t>(ViewClass::other) + 1;
 
 /// What the triangles of a scene of the whole city (WholeCity) are to those who see them, by the side that is seen:
 ///

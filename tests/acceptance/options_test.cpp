@@ -83,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
                                "--grid-like",   "--dry-run",        "--verify-map", "--histogram",    "--resume",
                                "--shard",       "--merge",          "--weather",    "--period",       "--step",
                                "--linke",       "--sky-model",      "--albedo",     "--by",           "--irradiation-threshold",
-                               "--within",      "--matrix",         "--at",         "--energyplus"}},
+                               "--within",      "--matrix",         "--at",         "--energyplus",   "--wall-sectors",
+                               "--eye-field"}},
         Program{"farlod-view",
                 {"--help", "--version", "--port", "--listen", "--export", "--summary", "--quiet", "--threads", "--config"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"

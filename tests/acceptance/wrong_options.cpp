@@ -136,6 +136,8 @@ std::vector<WrongCommand> wrong_words() {
       place("--quantity irradiation --period yesterday", {"--period", "yesterday", "write it like 2026"}),
       map("--weather a.epw", {"--weather", "--quantity irradiation"}),
       map("--points-crs 4326", {"--points-crs", "--points or --along"}),
+      map("--quantity view_factors --wall-sectors 6", {"--wall-sectors: 6 is not one of 4, 8"}),
+      map("--quantity view_eye --eye-field 91", {"--eye-field", "from 1 to 90"}),
       map("--sky-patches 9", {"--sky-patches: 9 is not one of 145, 577"}),
       usage("farlod-svf a.farlod -o o.aasc --grid 2", {"o.aasc", "choose one of", "did you mean .asc?"}),
       usage("farlod-svf a.farlod -o '' --grid 2", {"-o: the name is empty: give a file"}),

@@ -26,8 +26,10 @@ class PackedAround {
 
   /// The columns of a receiver in the middle.
   [[nodiscard]] std::map<std::string, double> columns(Engine engine, const Quantities& further,
-                                                      const Point3d& normal_city = {0.0, 0.0, 1.0}) const {
-    SkySettings settings{.engine = engine, .rays = 20000, .azimuths = azimuths_for(further, 720), .further = further};
+                                                      const Point3d& normal_city = {0.0, 0.0, 1.0},
+                                                      SkyWeight weight = SkyWeight::cosine) const {
+    SkySettings settings{
+        .engine = engine, .weight = weight, .rays = 20000, .azimuths = azimuths_for(further, 720), .further = further};
     const SkyEvaluator evaluator(*package_, settings);
     const Point3d n = package_->grid().rotation.grid_from_city(normal_city);
     const auto half = static_cast<float>(0.5 * packed_cell_edge_m);

@@ -97,6 +97,21 @@ void add_settings(Cases& cases) {
   });
 }
 
+void add_views(Cases& cases) {
+  const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces};
+  for (const std::size_t n : {0U, 1U, 6U, 16U})
+    cases.add(all, "sectors " + std::to_string(n), [=](Arguments& a) { a.settings.further.wall_sectors = n; });
+  for (const double field_deg : {0.0, 0.9, 90.1, -30.0, nan, infinity})
+    cases.add(all, "a field of " + std::to_string(field_deg),
+              [=](Arguments& a) { a.settings.further.eye_field_deg = field_deg; });
+  cases.add(all, "faces of a cube beside solid angles", [](Arguments& a) {
+    a.settings.weight = SkyWeight::solid_angle;
+    a.settings.further.view_cube = true;
+  });
+  for (const auto member : {&Quantities::view_cube, &Quantities::view_sphere, &Quantities::view_eye})
+    cases.add({surfaces}, "what is seen around a surface", [=](Arguments& a) { a.settings.further.*member = true; });
+}
+
 void add_limits(Cases& cases) {
   const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces};
   cases.add(all, "too small a limit", ends::limit, [](Arguments& a) { a.run.memory_limit_mib = 1; });
@@ -297,6 +312,7 @@ std::vector<WrongCall> all_wrong_calls() {
   Cases cases;
   add_inspections(cases);
   add_settings(cases);
+  add_views(cases);
   add_limits(cases);
   add_runs(cases);
   add_closed_packages(cases);

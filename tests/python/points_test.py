@@ -126,6 +126,39 @@ def test_further_quantities(village: farlod.City) -> None:
     assert answers.summary["receivers"] == int((~np.isnan(answers.svf)).sum())
 
 
+FACES = ("up", "down", "north", "east", "south", "west")
+CLASSES = ("sky", "ground", "roof", "wall_n", "wall_ne", "wall_e", "wall_se", "wall_s", "wall_sw", "wall_w", "wall_nw", "crown", "other")
+
+
+def test_views_around_points_add_up(village: farlod.City) -> None:
+    points = points_of(village, 100)
+    answers = village.evaluate(points, quantities=("view_cube", "view_sphere", "view_eye"), wall_sectors=8, eye_field=20.0, rays=500)
+    known = ~np.isnan(answers.svf)
+    assert len(answers.quantities) == 8 * len(CLASSES) and known.any()
+    for view in (*FACES, "sphere", "eye"):
+        seen = sum(answers.quantities[f"view_{what}_{view}"] for what in CLASSES)
+        np.testing.assert_allclose(seen[known], 1.0, atol=1e-5)  # type: ignore[index]
+    np.testing.assert_allclose(answers.quantities["view_sky_up"], answers.svf, atol=1e-6, equal_nan=True)
+    whole = village.evaluate(points, quantities=["view_eye"], eye_field=90.0, rays=5000).quantities["view_sky_eye"]
+    np.testing.assert_allclose(whole, answers.quantities["view_sky_sphere"], atol=0.01, equal_nan=True)
+
+
+def test_views_by_solid_angle(village: farlod.City) -> None:
+    points = points_of(village, 50)
+    solid = village.evaluate(points, metric="solid", quantities=["view_factors", "view_sphere"]).quantities
+    np.testing.assert_allclose(solid["view_sky"], village.svf(points, metric="solid"), atol=1e-6, equal_nan=True)
+    np.testing.assert_allclose(2.0 * solid["view_sky_sphere"], solid["view_sky"], atol=1e-6, equal_nan=True)
+
+
+def test_views_that_there_are_not(village: farlod.City) -> None:
+    with pytest.raises(farlod.InvalidArgument, match="wall_sectors is 6"):
+        village.evaluate([[550000.0, 5500000.0]], quantities=["view_factors"], wall_sectors=6)
+    with pytest.raises(farlod.InvalidArgument, match="eye_field"):
+        village.evaluate([[550000.0, 5500000.0]], quantities=["view_eye"], eye_field=100.0)
+    with pytest.raises(farlod.InvalidArgument, match="view_cube"):
+        village.surfaces("walls", 5.0, geometry=False, quantities=["view_cube"])
+
+
 def test_verification_is_in_the_summary(village: farlod.City) -> None:
     answers = village.evaluate(points_of(village, 100), verify=20)
     assert answers.summary["verify"]["count"] == 20 and answers.summary["verify"]["max_abs_error"] < 0.02

@@ -56,6 +56,12 @@ class Raster(QgisTest):
                      STEP=8, QUANTITIES=["directional", "sky_patches", "sunlit"], SKY_PATCHES=577, HORIZONS=12, SUN="2026-06-21")
         self.assertEqual(pixels(WORK / "more_qgis.tif")[3], 1 + 4 + 577 + 12 + 1)
 
+    def test_views_are_bands(self) -> None:
+        self.compare("views", ["--grid", 8, "--rays", 200, "--quantity", "view_sphere,view_eye", "--wall-sectors", 8,
+                               "--eye-field", 20.0],
+                     STEP=8, RAYS=200, QUANTITIES=["view_sphere", "view_eye"], WALL_SECTORS="8", EYE_FIELD=20.0)
+        self.assertEqual(pixels(WORK / "views_qgis.tif")[3], 1 + 13 + 13)
+
     def test_extent_and_mask_choose_pixels(self) -> None:
         self.compare("box", ["--grid", 2, "--bbox", "550000,5499950,550040,5499990"], STEP=2,
                      EXTENT="550000,550040,5499950,5499990 [EPSG:32632]")

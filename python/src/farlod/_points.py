@@ -142,7 +142,10 @@ class PointsOfCity(OpenCity):
             (``hidden_near``, ``hidden_far``); ``"shadow_patches"``: what hides each of the 153 patches of SOLWEIG, as bits
             (``shadow_1``, …); ``"view_factors"``: what is seen, by class (``view_sky``, ``view_ground``, ``view_roof``,
             ``view_wall_n``, …, ``view_crown``, ``view_other``), and ``"view_factors_below"``: what of it lies below the
-            horizontal (``view_ground_below``, …); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
+            horizontal (``view_ground_below``, …); the same classes as the six faces of a cube see them, whatever the normal,
+            ``"view_cube"`` (``view_sky_up``, …, with ``_down``, ``_north``, ``_east``, ``_south``, ``_west``), all around as
+            shares of solid angle, ``"view_sphere"`` (``view_sky_sphere``, …), and in a field at eye level, ``"view_eye"``
+            (``view_crown_eye``, the green view, …); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
             ``"directional_vegetation"``: both of the halves of the sky (``svfNveg``, …, ``svfNaveg``, …), and ``"shares"``: of
             sky, vegetation and building.
         verify : int, default 0

@@ -36,6 +36,8 @@ class Region:
 class Quantities:
     horizons: int
     horizon_distances: bool
+    wall_sectors: int
+    eye_field_deg: float
     svf_total: bool
     svf_total_bounds: bool
     leaf_off: bool

@@ -30,6 +30,9 @@ Quantity = Literal[
     "sky_component",
     "view_factors",
     "view_factors_below",
+    "view_cube",
+    "view_sphere",
+    "view_eye",
     "svf_total",
     "svfaveg",
     "directional_vegetation",
@@ -42,7 +45,17 @@ Progress = Union[bool, ProgressListener, None]
 
 
 #: Options that are no settings of an evaluation by themselves.
-OTHER_OPTIONS = ("canopy_rule", "leaf_off", "transmissivity", "extinction", "threads", "memory_limit", "progress")
+OTHER_OPTIONS = (
+    "wall_sectors",
+    "eye_field",
+    "canopy_rule",
+    "leaf_off",
+    "transmissivity",
+    "extinction",
+    "threads",
+    "memory_limit",
+    "progress",
+)
 
 
 class Options(TypedDict, total=False):
@@ -60,6 +73,11 @@ class Options(TypedDict, total=False):
         Rays of a receiver, 1 to 10,000,000 (default: 1,000, or as many as ``max_error`` needs).
     directions : {"partition", "fibonacci"}
         Where rays go: one in each cell of the Beckers partition of the sky, or a spherical Fibonacci lattice.
+    wall_sectors : {4, 8}
+        Azimuths by which ``"view_factors"``, ``"view_cube"``, ``"view_sphere"`` and ``"view_eye"`` tell walls apart; 8 has
+        ``view_wall_ne`` between ``view_wall_n`` and ``view_wall_e``, and so on.
+    eye_field : float
+        Degrees above and below the horizontal that ``"view_eye"`` looks at, 1 to 90 (default: 30); 90 is all around.
     canopy_rule : {"umep", "crowns", "beer"}
         How light passes the crowns of trees: a share in each direction that meets any, that share of each one that is met,
         or by the length within them. Of the quantities ``"svf_total"``, ``"svfaveg"``, ``"directional_vegetation"`` and
@@ -83,6 +101,8 @@ class Options(TypedDict, total=False):
     azimuths: int
     rays: int
     directions: Directions
+    wall_sectors: int
+    eye_field: float
     canopy_rule: CanopyRule
     leaf_off: bool
     transmissivity: float
@@ -152,6 +172,7 @@ class Evaluation:
         further.horizons = self.horizons
         further.horizon_distances = self.horizon_distances
         further.set_sky_patches(self.sky_patches)
+        self._set_views(further)
         self._set_canopy(further)
         if self.sun is not None:
             columns = [_arguments.floats("sun", values).ravel() for values in self.sun]
@@ -169,6 +190,12 @@ class Evaluation:
         if add_to is None:
             raise InvalidArgument(f"light is a {type(self.light).__name__}: give a farlod.Light, as City.light() makes it")
         add_to(further)
+
+    def _set_views(self, further: Any) -> None:
+        if "wall_sectors" in self.options:
+            further.wall_sectors = _arguments.whole_number("wall_sectors", self.options["wall_sectors"], 4, 8)
+        if "eye_field" in self.options:
+            further.eye_field_deg = _arguments.number("eye_field", self.options["eye_field"])
 
     def _set_canopy(self, further: Any) -> None:
         rule = self.options.get("canopy_rule", "umep")

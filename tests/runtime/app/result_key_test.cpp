@@ -34,8 +34,9 @@ struct Change {
   [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, within_m,
                           further] = evaluation;
   [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, sunlit_total, light, irradiation,
-                          irradiance, illuminance, shade, sky_component, view_factors, view_factors_below, svf_total,
-                          svf_total_bounds, svfaveg, directional_vegetation, sky_shares, canopy, shadow_patches] = further;
+                          irradiance, illuminance, shade, sky_component, view_factors, view_factors_below, view_cube, view_sphere,
+                          view_eye, eye_field, wall_sectors, svf_total, svf_total_bounds, svfaveg, directional_vegetation,
+                          sky_shares, canopy, shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
   // The intervals follow from the request, the package and the file
@@ -147,6 +148,13 @@ TEST_F(ResultKey, HasEachQuantity) {
                          {"sunlit_total", further(&Quantities::sunlit_total)},
                          {"view_factors", further(&Quantities::view_factors)},
                          {"view_factors_below", further(&Quantities::view_factors_below)},
+                         {"view_cube", further(&Quantities::view_cube)},
+                         {"view_sphere", further(&Quantities::view_sphere)},
+                         {"view_eye", further(&Quantities::view_eye)},
+                         {"view_eye of another field",
+                          [](SvfOptions& o) { o.evaluation.further.view_eye = true, o.evaluation.further.eye_field_deg = 45.0; }},
+                         {"view_cube by eight sectors",
+                          [](SvfOptions& o) { o.evaluation.further.view_cube = true, o.evaluation.further.wall_sectors = 8; }},
                          {"sun of a day", sun(2026y / 6 / 21, 1, 5min)},
                          {"sun of another day", sun(2026y / 1 / 1, 1, 5min)},
                          {"sun of a year", sun(2026y / 1 / 1, 365, 5min)},
@@ -212,7 +220,10 @@ TEST_F(ResultKey, HasNothingThatChangesNoValue) {
                [](SvfOptions& o) {
                  o.shard = Shard{0, 2};
                }},
-        Change{"--merge", [](SvfOptions& o) { o.merge = true; }}, Change{"--threads", [](SvfOptions& o) { o.run.threads = 1; }},
+        Change{"--merge", [](SvfOptions& o) { o.merge = true; }},
+        Change{"--threads", [](SvfOptions& o) { o.run.threads = 1; }},
+        Change{"sectors that nobody asks for", [](SvfOptions& o) { o.evaluation.further.wall_sectors = 8; }},
+        Change{"a field that nobody asks for", [](SvfOptions& o) { o.evaluation.further.eye_field_deg = 45.0; }},
         Change{"crowns that nobody asks for", [](SvfOptions& o) { o.evaluation.further.canopy.season = Season::leaf_off; }}})
     EXPECT_EQ(changed(raster(), change), key_of_answers(raster(), package)) << change.name;
 }
