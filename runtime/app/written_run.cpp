@@ -159,6 +159,19 @@ void add_notes_of_kit(const Package& package, const SvfOptions& options, std::ve
     notes.emplace_back("Pixels inside buildings have no data, where UMEP has the roof's: --on-surface has them.");
 }
 
+/// What the run will take without its files, whatever its limits.
+RunEstimate estimate_of(const Package& package, const RasterPlan& plan, const SvfOptions& options, RunSettings run) {
+  EvaluationSettings asked = options.evaluation;
+  asked.dry_run = true;
+  run.on_progress = nullptr;
+  run.answers = nullptr;
+  run.shard.reset();
+  run.memory_limit_mib.reset();  // the run itself tells what it needs, with its files
+  return *evaluate_raster(
+              package, plan, options.placing, asked, [](const RasterTile&) {}, run)
+              .estimate;
+}
+
 /// So many pixels take long, and cells of them much memory: what is needed is told before. An estimate tells the rest itself.
 void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const SvfOptions& options, const RunSettings& run,
                          std::vector<std::string>& notes) {
@@ -172,20 +185,14 @@ void tell_of_many_pixels(const Package& package, const RasterPlan& plan, const S
     return;
   }
   if (options.run.verbosity != Verbosity::normal) return;
-  EvaluationSettings asked = options.evaluation;
-  asked.dry_run = true;
-  RunSettings quiet = run;
-  quiet.on_progress = nullptr;
-  quiet.answers = nullptr;
-  quiet.shard.reset();
-  const RunEstimate estimate = *evaluate_raster(
-                                    package, plan, options.placing, asked, [](const RasterTile&) {}, quiet)
-                                    .estimate;
-  const bool is_refused = !run.memory_limit_mib && is_refused_by_machine(estimate.memory_bytes);
+  const RunEstimate estimate = estimate_of(package, plan, options, run);
+  constexpr double mib = 1 << 20;
+  const bool is_refused = run.memory_limit_mib ? estimate.memory_bytes > mib * static_cast<double>(*run.memory_limit_mib)
+                                               : is_refused_by_machine(estimate.memory_bytes);
   if (is_refused) return;
   fmt::print(stderr,
              "{}: about {} and {} of memory in all. A larger --grid or a part (--bbox) takes less; --dry-run tells it alone.\n",
-             what, rough_duration(estimate.seconds), rough_size(estimate.memory_bytes / (1 << 20)));
+             what, rough_duration(estimate.seconds), rough_size(estimate.memory_bytes / mib));
 }
 
 void tell_of_raster(const Package& package, const RasterPlan& plan, const SvfOptions& options, const RunSettings& run,

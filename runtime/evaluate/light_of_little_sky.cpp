@@ -57,7 +57,7 @@ void LightOfLittleSky::improve(const CellReceivers& cell, const SkyAnswers& answ
   CellReceivers some{cell.cell, {}};
   std::vector<std::size_t> indices;
   for (const Receiver& r : cell.receivers) {
-    // Of no sky comes no light
+    // No light comes of no sky
     if (const float svf = answers.svf[r.index]; !(svf > 0.0F && svf < little_svf)) continue;
     indices.push_back(r.index);
     some.receivers.push_back(r);

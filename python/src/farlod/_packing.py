@@ -9,7 +9,7 @@ import tempfile
 import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Union
 
 from farlod import _arguments, _modules
@@ -384,7 +384,7 @@ def pack(
             error.args = (in_python(str(error), folder), *error.args[1:])
             raise
         finally:
-            found = [Problem(**{**row, "detail": in_python(row["detail"], folder)}) for row in rows]
+            found = [replace(problem, detail=in_python(problem.detail, folder)) for problem in (Problem(**r) for r in rows)]
             if report:
                 _warn_of(found)
     opened = City(path)
