@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <bit>
+#include <memory>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "base/cancellation.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_answers.hpp"
+#include "evaluate/light_of_little_sky.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "evaluate/sky_method.hpp"
 #include "horizon/cell_silhouettes.hpp"
@@ -144,25 +146,35 @@ void MethodWithHorizons::draw(CellGeometry& geometry, PixelHorizon* pixels, cons
 
 class HorizonMethod final : public MethodWithHorizons {
  public:
-  using MethodWithHorizons::MethodWithHorizons;
+  explicit HorizonMethod(const Evaluation& evaluation)
+      : MethodWithHorizons(evaluation), light_of_little_sky_(LightOfLittleSky::of(evaluation)) {}
 
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
     const auto start = EvaluationCounter::Clock::now();
     require_far_map(cell.cell);
     CellGeometry geometry(evaluation_, cell);
     const auto scene_ready = EvaluationCounter::Clock::now();
-    draw(geometry, cell, answers,
-         [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) { store(packet, numbers, cell, answers); });
+    answer(geometry, cell, answers);
+    if (light_of_little_sky_)
+      light_of_little_sky_->improve(cell, answers, [&](const Evaluation& finer, const CellReceivers& some, const SkyAnswers& a) {
+        HorizonMethod(finer).answer(geometry, some, a);
+      });
     evaluation_.counter->add_times(start, scene_ready);
   }
 
  private:
+  void answer(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
+    draw(geometry, cell, answers,
+         [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) { store(packet, numbers, cell, answers); });
+  }
   void require_far_map(Cell cell) const {
     if (far_map_of(evaluation_.package, cell) != FarMapOfCell::missing) return;
     throw PackageUnusable("The engine horizon needs a far map, and cell " + text_of(cell) +
                           " has none, since far maps were made for a part of the city: add those that are missing (farlod-pack "
                           "--area), or use the engine auto.");
   }
+
+  std::unique_ptr<const LightOfLittleSky> light_of_little_sky_;  ///< null where no light is asked for
 };
 
 class PixelMethod final : public MethodWithHorizons {

@@ -10,18 +10,20 @@
 namespace farlod {
 namespace {
 
-constexpr Quantity quantities_of_light[] = {Quantity::irradiation, Quantity::irradiance, Quantity::illuminance,
-                                            Quantity::sky_component};
+/// What is made of the light of the sky; hours of sun and shade are not.
+constexpr bool is_of_light(const QuantityRow& row) {
+  using enum Quantity;
+  return row.quantity == irradiation || row.quantity == irradiance || row.quantity == illuminance ||
+         row.quantity == sky_component;
+}
 
 /// What is asked of the light alone.
 Quantities only_light(const Quantities& asked) {
   Quantities light;
   light.light = asked.light;
   light.canopy = asked.canopy;
-  light.irradiation = asked.irradiation;
-  light.irradiance = asked.irradiance;
-  light.illuminance = asked.illuminance;
-  light.sky_component = asked.sky_component;
+  for (const QuantityRow& row : quantity_table())
+    if (is_of_light(row) && row.is_asked(asked)) row.ask(light);
   return light;
 }
 
@@ -36,24 +38,19 @@ SkySettings finer(const SkySettings& settings, Quantities light) {
 }  // namespace
 
 std::unique_ptr<const LightOfLittleSky> LightOfLittleSky::of(const Evaluation& evaluation) {
-  auto light = std::make_unique<const LightOfLittleSky>(evaluation);
-  return light->columns_.empty() || evaluation.settings.azimuths >= azimuths ? nullptr : std::move(light);
+  const auto is_asked = [&](const QuantityRow& row) { return is_of_light(row) && row.is_asked(evaluation.settings.further); };
+  if (evaluation.settings.azimuths >= azimuths || std::ranges::none_of(quantity_table(), is_asked)) return nullptr;
+  return std::make_unique<const LightOfLittleSky>(evaluation);
 }
 
 LightOfLittleSky::LightOfLittleSky(const Evaluation& evaluation)
     : evaluation_(evaluation), light_(only_light(evaluation.settings.further)) {
-  for (const Quantity quantity : quantities_of_light)
-    if (const ColumnRange asked = range_of(quantity, evaluation.settings.further); asked.count > 0)
-      columns_.push_back({asked, range_of(quantity, light_)});
+  for (const QuantityRow& row : quantity_table())
+    if (is_of_light(row) && row.is_asked(light_))
+      columns_.push_back({range_of(row.quantity, evaluation.settings.further), range_of(row.quantity, light_)});
 }
 
-void LightOfLittleSky::make_finer() const {
-  finer_ = std::make_unique<const Evaluation>(evaluation_.package, finer(evaluation_.settings, light_), evaluation_.stop,
-                                              evaluation_.city);
-  horizons_ = horizon_method(*finer_);
-}
-
-void LightOfLittleSky::improve(const CellReceivers& cell, const SkyAnswers& answers) const {
+void LightOfLittleSky::improve(const CellReceivers& cell, const SkyAnswers& answers, const Answer& answer) const {
   CellReceivers some{cell.cell, {}};
   std::vector<std::size_t> indices;
   for (const Receiver& r : cell.receivers) {
@@ -64,10 +61,13 @@ void LightOfLittleSky::improve(const CellReceivers& cell, const SkyAnswers& answ
     some.receivers.back().index = some.receivers.size() - 1;
   }
   if (indices.empty()) return;
-  std::call_once(once_, [this] { make_finer(); });
+  std::call_once(once_, [this] {
+    finer_ = std::make_unique<const Evaluation>(evaluation_.package, finer(evaluation_.settings, light_), evaluation_.stop,
+                                                evaluation_.city);
+  });
   const std::size_t all = evaluation_.further.size(), of_light = finer_->further.size();
   std::vector<float> svf(indices.size()), light(indices.size() * of_light);
-  horizons_->evaluate(some, SkyAnswers(svf, {}, {}, light));
+  answer(*finer_, some, SkyAnswers(svf, {}, {}, light));
   for (std::size_t n = 0; n < indices.size(); ++n)
     for (const auto& [asked, finer] : columns_)
       std::ranges::copy(std::span(light).subspan(n * of_light + finer.first, finer.count),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -27,23 +28,22 @@ class LightOfLittleSky {
   [[nodiscard]] static std::unique_ptr<const LightOfLittleSky> of(const Evaluation& evaluation);
   explicit LightOfLittleSky(const Evaluation& evaluation);
 
+  /// Answers some receivers of a cell, from 0 on by their numbers, as an evaluation at more azimuths asks.
+  using Answer = std::function<void(const Evaluation& finer, const CellReceivers& some, const SkyAnswers& answers)>;
   /// Puts the light of those that see little sky in the place of what horizons answered. Thread-safe.
-  void improve(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void improve(const CellReceivers& cell, const SkyAnswers& answers, const Answer& answer) const;
 
  private:
   /// Where a quantity is among the columns that were asked for, and among those of `finer_`.
   struct Columns {
     ColumnRange asked, finer;
   };
-  void make_finer() const;
-
   const Evaluation& evaluation_;
   Quantities light_;
   std::vector<Columns> columns_;
   // Made on demand: a table of light at so many azimuths takes some tenths of a second
   mutable std::once_flag once_;
   mutable std::unique_ptr<const Evaluation> finer_;
-  mutable std::unique_ptr<const SkyMethod> horizons_;
 };
 
 }  // namespace farlod

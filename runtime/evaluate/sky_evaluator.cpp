@@ -9,7 +9,6 @@
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
 #include "evaluate/error_budget.hpp"
-#include "evaluate/light_of_little_sky.hpp"
 #include "evaluate/sky_method.hpp"
 #include "evaluate/traced_patches.hpp"
 #include "evaluate/view_factors.hpp"
@@ -139,8 +138,7 @@ SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& sett
 SkyEvaluator::SkyEvaluator(const SkyEvaluator& other, const SkySettings& settings)
     : SkyEvaluator(std::make_unique<Evaluation>(other.package(), settings, other.evaluation_->stop, other.evaluation_->city)) {}
 
-SkyEvaluator::SkyEvaluator(std::unique_ptr<const Evaluation> evaluation)
-    : evaluation_(std::move(evaluation)), light_of_little_sky_(LightOfLittleSky::of(*evaluation_)) {
+SkyEvaluator::SkyEvaluator(std::unique_ptr<const Evaluation> evaluation) : evaluation_(std::move(evaluation)) {
   using enum EvaluationMethod;
   const auto method = [this](EvaluationMethod m) -> auto& { return methods_[static_cast<std::size_t>(m)]; };
   method(horizons) = pixel_method(*evaluation_, horizon_method(*evaluation_));
@@ -161,14 +159,14 @@ const PackageReader& SkyEvaluator::package() const { return evaluation_->package
 const SkySettings& SkyEvaluator::settings() const { return evaluation_->settings; }
 std::size_t SkyEvaluator::further_columns() const { return evaluation_->further.size(); }
 
-EvaluationMethod SkyEvaluator::method_for(Cell cell) const { return method_of(settings().engine, far_map_of(package(), cell)); }
+const SkyMethod& SkyEvaluator::method_for(Cell cell) const {
+  return *methods_[static_cast<std::size_t>(method_of(settings().engine, far_map_of(package(), cell)))];
+}
 
 void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {
   if (cell.receivers.empty()) return;
   throw_if_cancelled(evaluation_->stop);
-  const EvaluationMethod method = method_for(cell.cell);
-  methods_[static_cast<std::size_t>(method)]->evaluate(cell, answers);
-  if (light_of_little_sky_ && method == EvaluationMethod::horizons) light_of_little_sky_->improve(cell, answers);
+  method_for(cell.cell).evaluate(cell, answers);
   const Quantities& further = settings().further;
   if (further.horizon_distances) find_horizon_distances(cell, answers);
   if (further.shadow_patches) find_shadow_patches(cell, answers);
@@ -218,7 +216,7 @@ SkyParts SkyEvaluator::parts_of_sky(const CellReceivers& cell, const HemisphereD
   FARLOD_EXPECTS(cell.receivers.size() == 1);
   const Receiver& receiver = cell.receivers.front();
   const Occluder near = near_scene(package(), cell.cell);
-  SkyParts seen = methods_[static_cast<std::size_t>(method_for(cell.cell))]->parts(cell, directions, near);
+  SkyParts seen = method_for(cell.cell).parts(cell, directions, near);
   if (!package().has_crowns()) return seen;
   const CrownOccluder crowns(canopy_around(package(), cell.cell, receiver.p_cell.z), settings().further.canopy,
                              evaluation_->stop);

@@ -51,7 +51,6 @@ inline constexpr std::size_t evaluation_method_count = 6;
 /// a rough surface before horizons are drawn, too.
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
-class LightOfLittleSky;
 class SkyMethod;
 class ViewsAround;
 struct Evaluation;
@@ -92,14 +91,13 @@ class SkyEvaluator {
 
  private:
   explicit SkyEvaluator(std::unique_ptr<const Evaluation> evaluation);
-  [[nodiscard]] EvaluationMethod method_for(Cell cell) const;
+  [[nodiscard]] const SkyMethod& method_for(Cell cell) const;
   /// The horizons of the receivers are answered already.
   void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_shadow_patches(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_views(const CellReceivers& cell, const SkyAnswers& answers) const;
 
   std::unique_ptr<const Evaluation> evaluation_;
-  std::unique_ptr<const LightOfLittleSky> light_of_little_sky_;  ///< null where no light is asked for
   std::array<std::unique_ptr<const SkyMethod>, evaluation_method_count> methods_;
   std::unique_ptr<const ViewsAround> around_;  ///< null where nobody asks for a cube or a sphere
   std::vector<Point3d> eye_directions_;        ///< empty where nobody asks for Quantities::view_eye

@@ -3,6 +3,7 @@
 #include "radiation/light_table.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
 #include <cmath>
@@ -259,10 +260,12 @@ SkyGrid sky_of(std::span<const LightInterval* const> intervals, SkyModel model, 
   const std::vector<SkyOfIntervals> skies = skies_of(intervals, measure);
   constexpr std::size_t pieces = 16;
   std::vector<SkyGrid> of_pieces(pieces);
-  oneapi::tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t n) {
+  const auto add_piece = [&](std::size_t n) {
     const std::size_t begin = n * skies.size() / pieces, end = (n + 1) * skies.size() / pieces;
     for (const SkyOfIntervals& sky : std::span(skies).subspan(begin, end - begin)) of_pieces[n].add(sky.mean, model, sky.diffuse);
-  });
+  };
+  // A table may be made in the midst of a cell, for all cells: a thread that waits here must not begin another cell
+  oneapi::tbb::this_task_arena::isolate([&] { oneapi::tbb::parallel_for(std::size_t{0}, pieces, add_piece); });
   SkyGrid all = std::move(of_pieces.front());
   for (const SkyGrid& piece : std::span(of_pieces).subspan(1)) all.add(piece);
   return all;
