@@ -59,6 +59,7 @@ class SkyAtAzimuth {
     if (std::isinf(t)) return 0.0F;
     const float cos_square = 1.0F / (1.0F + t * t);
     if (weight_ == SkyWeight::solid_angle) return 1.0F - t * std::sqrt(cos_square);
+    if (outward_ == 0.0F) return upward_ * cos_square;  // most receivers look straight up
     const float zenith_distance = std::numbers::pi_v<float> / 2.0F - std::atan(t);
     return outward_ * (zenith_distance - t * cos_square) + upward_ * cos_square;
   }
@@ -164,20 +165,20 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
   const float higher_slope = horizon.row(higher)[lane], lower_slope = horizon.row(lower)[lane];
   const std::int32_t edge = horizon.edge_number(higher, lane);
   if (edge < 0) return {};
-  // (1) Both horizons at one azimuth: what is left is the jump, and not the turn of the receiver's normal
   const float *cosine = azimuths_.cosine(), *sine = azimuths_.sine();
+  // (1) How far the higher one reaches
+  const float per_angle = static_cast<float>(azimuths_.size()) / (2.0F * std::numbers::pi_v<float>);
+  const Way way({receivers.x[lane], receivers.y[lane], receivers.z[lane]}, cosine[higher], sine[higher],
+                is_here ? per_angle : -per_angle);
+  BorderOnWay border(way, ends, higher_slope, lower_slope);
+  if (!border.go_along(edge)) return {};
+  // (2) Both horizons at one azimuth: what is left is the jump, and not the turn of the receiver's normal
   constexpr float half = 0.5F;
   const float outward = half * (receivers.normal_x[lane] * (cosine[higher] + cosine[lower]) +
                                 receivers.normal_y[lane] * (sine[higher] + sine[lower]));
   const SkyAtAzimuth sky(weight, outward, receivers.normal_z[lane]);
   const float higher_sky = sky.above(higher_slope), lower_sky = sky.above(lower_slope);
   if (lower_sky - higher_sky < least) return {};
-  // (2) How far the higher one reaches
-  const float per_angle = static_cast<float>(azimuths_.size()) / (2.0F * std::numbers::pi_v<float>);
-  const Way way({receivers.x[lane], receivers.y[lane], receivers.z[lane]}, cosine[higher], sine[higher],
-                is_here ? per_angle : -per_angle);
-  BorderOnWay border(way, ends, higher_slope, lower_slope);
-  if (!border.go_along(edge)) return {};
   const float correction = mean_sky(border, sky, lower_slope, higher_sky) - half * (higher_sky + lower_sky);
   // (3) One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own
   return {correction, correction > 0.0F ? higher : lower};

@@ -63,9 +63,12 @@ struct LitColumn {
   }
   FARLOD_LANES Floats in_front(const Floats& t) const { return min(max(t, front.lowest), front.highest); }
 
-  /// What is above a slope in front of the receivers counts so many times, unless it is as good as the zenith.
+  /// What is above a slope in front of the receivers counts so many times, unless it is as good as the zenith: of half of the
+  /// azimuths, walls see nothing.
   FARLOD_LANES void read(const Floats& t, const Floats& times) {
-    const Floats weight = choose(t < no_light_above, times, broadcast(0.0F));
+    const Mask counts = t < no_light_above;
+    if (bits_of(counts) == 0) return;
+    const Floats weight = choose(counts, times, broadcast(0.0F));
     reads[read_count++] = {place_of(t), weight};
     uniform += weight * uniform_above(t);
   }
@@ -141,6 +144,7 @@ template <bool all_look_up>
 FARLOD_LANES void add_column(const LightScene& scene, const Normals& normals, std::size_t azimuth, float* sums) {
   LitColumn<all_look_up> column(scene, normals, azimuth);
   read_column(scene, azimuth, column);
+  if (column.read_count == 0) return;
   const auto add = [&](std::size_t layer, const Floats& light) {
     store(load(sums + layer * lane_count) + light, sums + layer * lane_count);
   };
