@@ -31,7 +31,7 @@ namespace {
 struct Options {
   std::filesystem::path package, weather;
   double latitude_deg = 0.0, longitude_deg = 0.0;
-  std::size_t receivers = 200, directions = 20'000, azimuths = 320, step_min = 5;
+  std::size_t receivers = 200, directions = 20'000, azimuths = 320;
   std::uint64_t seed = 1;
 };
 
@@ -146,7 +146,7 @@ void print(const char* what, std::vector<double> errors) {
 
 void run(const Options& options) {
   const PackageReader package(options.package);
-  const Light light = light_of(options, std::chrono::minutes(options.step_min));
+  const Light light = light_of(options, std::chrono::minutes(5));
   // The sun goes on between its positions: the judge has five times as many, spread over its disk
   const scenes::LightByRays judge(light_of(options, std::chrono::minutes(1)), options.directions, package.grid().rotation,
                                   package.manifest().convergence);
@@ -173,7 +173,6 @@ int main(int argc, char** argv) {
   app.add_option("--receivers", options.receivers)->capture_default_str();
   app.add_option("--directions", options.directions, "Of the sky's light")->capture_default_str();
   app.add_option("--azimuths", options.azimuths)->capture_default_str();
-  app.add_option("--step", options.step_min, "Minutes between positions of the sun")->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
