@@ -290,20 +290,40 @@ void require_accuracy(const EvaluationSettings& settings) {
   }
 }
 
+/// The option by which more is asked for than svf.
+const char* option_of_quantities(const RawQuantities& raw) {
+  return !raw.quantities.empty() ? "--quantity"
+         : raw.horizons > 0      ? "--horizons"
+         : raw.sky_patches > 0   ? "--sky-patches"
+                                 : "--sun";
+}
+
+/// It draws the horizon, and has no room for numbers of directions.
+void refuse_on_sky_picture(const RawQuantities& raw, const Quantities& further) {
+  constexpr const char* table = "leave the option out, or write a table (-o FILE.csv)";
+  if (raw.horizons > 0)
+    throw CLI::ValidationError("--horizons", std::string("a picture of the sky draws the horizon at every azimuth, and holds no "
+                                                         "numbers of it: ") +
+                                                 table);
+  if (raw.sky_patches > 0)
+    throw CLI::ValidationError("--sky-patches", std::string("a picture of the sky holds no numbers of its patches: ") + table);
+  if (any_but_irradiation(further))
+    throw CLI::ValidationError(
+        "--quantity", "a picture of the sky shows svf, irradiation, and with --sun the sun's path: leave the others out");
+}
+
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   RequestedQuantities requested = resolved(raw.quantities, o.format);
   if (requested.further.any_weighted() && o.evaluation.weight == SkyWeight::solid_angle)
     throw CLI::ValidationError("--quantity",
                                "with --sky solid only " + words_of_unweighted() + " can be computed: leave --sky out");
   const bool is_sky = o.source == ReceiverSource::at && o.format != nullptr && o.format->is_picture;
-  if (is_sky && any_but_irradiation(requested.further))
-    throw CLI::ValidationError(
-        "--quantity", "a picture of the sky shows svf, irradiation, and with --sun the sun's path: leave the others out");
+  if (is_sky) refuse_on_sky_picture(raw.quantities, requested.further);
   const auto has_room = [&](const OutputFormat& f) { return fits(f, o.source) && f.holds_bounds; };
   const bool is_drawn = o.source == ReceiverSource::grid && o.format != nullptr && o.format->is_picture;
   if (requested.any() && !is_sky && o.format != nullptr && !o.format->holds_bounds && !(is_drawn && fits_picture(raw.quantities)))
-    throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
-                                                 " has room for one quantity only: " + advice(has_room));
+    throw CLI::ValidationError(option_of_quantities(raw.quantities), "a file that ends in " + o.output.extension().string() +
+                                                                         " has room for one quantity only: " + advice(has_room));
   requested.further.svf_total_bounds = requested.further.svf_total && o.evaluation.bounds;
   o.light = resolved_light(raw.light, requested.further);
   if (o.surfaces.irradiation_threshold_kwh_m2 && !(o.source == ReceiverSource::surfaces && requested.further.irradiation))

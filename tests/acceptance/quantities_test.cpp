@@ -196,7 +196,7 @@ TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
   };
   refused("-o o.asc --grid 8 --quantity directional", {"--quantity", ".asc", "one quantity only"});
   refused("-o o.png --grid 8 --quantity directional,hidden", {"--quantity", ".png", "one quantity only"});
-  refused("-o o.png --at 1,2 --sun 2026 --horizons 36", {"--quantity", "--sun", "leave the others out"});
+  refused("-o o.png --at 1,2 --sun 2026 --horizons 36", {"--horizons: a picture of the sky", "leave the option out"});
   refused("-o o.csv --at 1,2 --quantity light", {"--quantity", "light", "svf_solid"});
   refused("-o o.csv --at 1,2 --quantity sunlit", {"--quantity", "--sun"});
   refused("-o o.csv --at 1,2 --sun 2026-02-30", {"--sun", "2026-02-30"});

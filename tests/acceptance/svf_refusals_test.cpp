@@ -101,6 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
         wrong_grid("MapOfAVerificationIsNoPicture", "--verify 1 --verify-map v.asc",
                    {"--verify-map", "v.asc", ".csv, .png, .svg, .pdf"}),
         wrong_at("ProjectionOfATable", "--projection equidistant", {"--projection", "picture of --at"}),
+        wrong_usage("HorizonsOfASky", "a.farlod -o o.png --at 1,2 --horizons 36",
+                    {"--horizons: a picture of the sky draws the horizon at every azimuth", "-o FILE.csv"}),
+        wrong_usage("PatchesOfASky", "a.farlod -o o.png --at 1,2 --sky-patches 145", {"--sky-patches: a picture of the sky"}),
+        wrong_usage("HoursOfASky", "a.farlod -o o.png --at 1,2 --quantity hidden",
+                    {"--quantity: a picture of the sky shows svf"}),
+        wrong_usage("HorizonsAndHoursOfAMap", "a.farlod -o o.png --grid 5 --horizons 36 --sun 2026-06-21",
+                    {"--horizons: a file that ends in .png has room for one quantity only"}),
         wrong_grid("PreviewIsNoPicture", "--preview p.jpg", {"--preview", "p.jpg", ".png, .svg, .pdf"}),
         wrong_at("NoMemory", "--memory-limit 0", {"--memory-limit", "0"})),
     name_of_refused);
