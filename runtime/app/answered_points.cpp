@@ -15,6 +15,7 @@
 #include "app/written_run.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
+#include "farlod/plan_view.hpp"
 
 namespace farlod {
 namespace {
@@ -101,6 +102,24 @@ std::string asked_place(const NamedPoints& named, std::size_t n, const SvfOption
   return given == projected ? given : fmt::format("{} (longitude and latitude of {})", given, projected);
 }
 
+/// Heights at one place.
+PlanHeights heights_at(const Package& package, Point2d p, std::size_t threads) {
+  constexpr double pixel_m = 0.01;
+  RunSettings run;
+  run.threads = threads;
+  return plan_heights(package, {p - Point2d{0.5 * pixel_m, -0.5 * pixel_m}, pixel_m, 1, 1}, run);
+}
+
+std::string reason_of_no_answer(const Package& package, const NamedPoints& named, std::size_t n, std::size_t threads) {
+  constexpr double least_building_m = 0.1;
+  const PlanHeights heights = heights_at(package, {named.x_m[n], named.y_m[n]}, threads);
+  const double ground_m = heights.ground_m.front(), highest_m = heights.highest_m.front(), z_m = named.z_m[n];
+  if (z_m < ground_m) return fmt::format("its height of {:.2f} m is below the ground, which is at {:.2f} m", z_m, ground_m);
+  if (highest_m - ground_m > least_building_m)
+    return fmt::format("inside a building, whose top is {:.1f} m above the ground", highest_m - ground_m);
+  return std::isnan(highest_m) ? "there is no ground" : "inside a building or below the ground";
+}
+
 }  // namespace
 
 void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, const PackageDescription& city) {
@@ -142,6 +161,21 @@ std::optional<std::string> note_of_heights(const NamedPoints& named, const Point
   return fmt::format(
       "\"{}\" was taken for an elevation above sea level{}: for heights above ground name it height_above_ground_m.",
       named.doubtful_z, below);
+}
+
+std::optional<std::string> note_of_unanswered(const Package& package, const NamedPoints& named, const PointAnswers& answers,
+                                              std::size_t threads) {
+  constexpr std::size_t most_named = 5;
+  std::size_t count = 0;
+  std::string first;
+  for (const std::size_t n : rows_in_reach(named, package.description())) {
+    if (!std::isnan(answers.svf[n]) || ++count > most_named) continue;
+    first += fmt::format("{}{} at {:.10g}, {:.10g} ({})", first.empty() ? "" : "; ", named.ids[n], named.x_m[n], named.y_m[n],
+                         reason_of_no_answer(package, named, n, threads));
+  }
+  if (count == 0) return std::nullopt;
+  return fmt::format("{} of {} points {} no answer: {}{}.", count, named.ids.size(), count == 1 ? "has" : "have", first,
+                     count > most_named ? fmt::format("; and {} more", count - most_named) : "");
 }
 
 PointAnswers evaluate_named(const Package& package, const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,10 @@ void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, c
 /// What to tell of heights whose column may also mean heights above the ground.
 [[nodiscard]] std::optional<std::string> note_of_heights(const NamedPoints& named, const PointAnswers& answers,
                                                          const PackageDescription& city);
+
+/// What to tell of points that have a place in reach and no answer: the first of them, and why.
+[[nodiscard]] std::optional<std::string> note_of_unanswered(const Package& package, const NamedPoints& named,
+                                                            const PointAnswers& answers, std::size_t threads);
 
 /// Evaluates the points that have a place in reach; the others have no answer. Throws PointsError for a point that is none, since
 /// it is of an input, and what the library throws.

@@ -332,6 +332,7 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   if (!options.writes()) return written;
   require_heights_above_ground(named, answers, package.description());
   require_answers(written.summary, options, package.description());
+  if (const auto note = note_of_unanswered(package, named, answers, run.threads)) written.notes.push_back(*note);
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
   RunHistogram histogram(options);

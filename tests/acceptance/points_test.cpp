@@ -105,6 +105,23 @@ TEST_F(PackedTown, InsideABuildingThereIsNoAnswer) {
   EXPECT_EQ(folder.json_of("s.json").at("nodata"), 1);
 }
 
+/// The terminal counted them, and nothing else.
+TEST_F(PackedTown, PointsWithoutAnAnswerAreToldWithTheReason) {
+  const Point2d inside = p_projected(small_town().front().centre);
+  std::string text =
+      "id,x,y,z\nhall," + text_of(inside) + ",\ncellar," + text_of(crossing) + ",-3\nstreet," + text_of(crossing) + ",2\n";
+  folder.write("p.csv", text);
+  const Outcome few = folder.run("farlod-svf a.farlod -o o.csv --points p.csv");
+  EXPECT_THAT(few.out, HasSubstr("2 of 3 points have no answer: hall at "));
+  EXPECT_THAT(few.out, testing::ContainsRegex("\\(inside a building, whose top is [0-9.]+ m above the ground\\); cellar at "));
+  EXPECT_THAT(few.out, HasSubstr("(its height of -3.00 m is below the ground, which is at 0.00 m)."));
+  for (int n = 0; n < 6; ++n) text += "more" + std::to_string(n) + "," + text_of(inside) + ",\n";
+  folder.write("p.csv", text);
+  const Outcome many = folder.run("farlod-svf a.farlod -o o.csv --points p.csv");
+  EXPECT_THAT(many.out, HasSubstr("8 of 9 points have no answer: hall at "));
+  EXPECT_THAT(many.out, testing::ContainsRegex("more2 at [^;]*; and 3 more\\."));
+}
+
 TEST_F(PackedTown, OnTheSurfaceAReceiverStandsOnTheRoof) {
   const Block tower = tower_of(small_town());
   folder.must("farlod-svf a.farlod -o o.csv --engine exact --on-surface --at " + text_of(p_projected(tower.centre)));
