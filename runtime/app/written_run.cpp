@@ -48,6 +48,13 @@ std::vector<Band> bands_of_run(const SvfOptions& options) {
   return bands;
 }
 
+/// Why pixels were not asked for, as the legend of a picture says it.
+std::string words_of_left_out(const SvfOptions& options) {
+  const auto& within_m = options.evaluation.within_m;
+  if (!within_m) return options.mask_file.empty() ? "" : "outside of the mask";
+  return options.mask_file.empty() ? fmt::format("not within {:g} m", *within_m) : "not asked for";
+}
+
 RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Package& package, std::size_t threads) {
   std::vector<Band> bands = bands_of_run(options);
   const std::size_t drawn = drawn_band_of(options, bands);
@@ -63,7 +70,8 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Pa
           provenance_of(options, package.description()),
           &package,
           drawn,
-          std::move(conditions)};
+          std::move(conditions),
+          words_of_left_out(options)};
 }
 
 TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const Package& package) {

@@ -114,6 +114,12 @@ void add_scale(Drawing& drawing, Pixel upper_left, PixelSize size, const std::fu
 /// What the ground of a surface model is: buildings and trees are in it.
 const char* word_of_ground(const CityScenery& scenery) { return scenery.is_surface_model ? "Surface" : "Ground"; }
 
+/// To a decimetre, without zeros behind the point: "0 m", "12.3 m".
+std::string elevation_text(double z_m) {
+  const double rounded_m = std::round(10.0 * z_m) / 10.0;
+  return fmt::format("{:.10g} m", rounded_m == 0.0 ? 0.0 : rounded_m);  // and not -0
+}
+
 void add_scales(Drawing& drawing, Pixel place, const CityScenery& scenery, const CityScale& scale) {
   constexpr std::size_t width = 28;
   constexpr int steps = 5;
@@ -124,9 +130,9 @@ void add_scales(Drawing& drawing, Pixel place, const CityScenery& scenery, const
   for (int n = 0; n <= steps; ++n)
     ticks.emplace_back(static_cast<double>(n) / steps,
                        fmt::format("{}{:g} m", n == steps && scale.highest_m > scale.top_m ? "≥ " : "", n * scale.top_m / steps));
-  std::vector<std::pair<double, std::string>> elevations{{0.0, fmt::format("{:.1f} m", scale.low_m)}};
+  std::vector<std::pair<double, std::string>> elevations{{0.0, elevation_text(scale.low_m)}};
   // Level ground has one
-  if (scale.high_m > scale.low_m) elevations.emplace_back(1.0, fmt::format("{:.1f} m", scale.high_m));
+  if (elevation_text(scale.high_m) != elevations.front().second) elevations.emplace_back(1.0, elevation_text(scale.high_m));
   if (scale.top_m > 0.0) {
     words_at(14, "Buildings");
     words_at(34, "above ground");

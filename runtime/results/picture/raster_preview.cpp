@@ -88,7 +88,8 @@ constexpr double outline_width = 0.7, tick_width = 1.5, tick_length = 6.0;
 constexpr std::size_t margin = 24, gap = 16, heading_height = 50;
 constexpr PixelSize legend_size{96, 280};
 constexpr std::size_t colour_bar_width = 28, footer_height = 48;
-constexpr std::size_t narrowest_content = 560;  // the longest title must fit
+constexpr std::size_t narrowest_content = 560;       // the longest title must fit
+constexpr double letter_width = 0.53 * text_height;  // of a line of them, on average
 
 /// The unit of the colours, what they are drawn for, the pixels that they stand for, and where north is up.
 std::string subtitle_of(const RasterFrame& frame, const ValueScale& scale) {
@@ -143,17 +144,17 @@ Picture map_of(const PreviewRaster& raster, const ValueScale& scale, const PlanB
   return map;
 }
 
-Picture colour_scale_of(PixelSize size) {
+Picture colour_scale_of(PixelSize size, const ValueScale& scale) {
   Picture colours(size, ink);
   for (std::size_t y = 0; y < size.height; ++y) {
     const double share = 1.0 - static_cast<double>(y) / static_cast<double>(size.height - 1);
-    colours.fill({0, y}, {size.width, 1}, colour_of_svf(share));
+    colours.fill({0, y}, {size.width, 1}, scale.colour_of(share * scale.end));
   }
   return colours;
 }
 
 void add_colour_bar(Drawing& drawing, const PreviewLayout& layout, const ValueScale& scale) {
-  drawing.shapes.emplace_back(Image{layout.colour_bar, colour_scale_of(layout.colour_bar_size)});
+  drawing.shapes.emplace_back(Image{layout.colour_bar, colour_scale_of(layout.colour_bar_size, scale)});
   const auto [left, top] = page_point_of(layout.colour_bar);
   const double right = left + static_cast<double>(layout.colour_bar_size.width);
   drawing.shapes.emplace_back(Text{{left, top - 6.0}, scale.unit, text_height, Alignment::left, ink});
@@ -169,18 +170,20 @@ void add_colour_bar(Drawing& drawing, const PreviewLayout& layout, const ValueSc
 }
 
 /// A box of a grey and its meaning; returns where the next one stands.
-PagePoint add_grey_legend(Drawing& drawing, PagePoint place, Colour grey, const char* words, double width) {
+PagePoint add_grey_legend(Drawing& drawing, PagePoint place, Colour grey, const std::string& words) {
+  constexpr double away = 36.0;
   constexpr double edge = 14.0, rim = 1.0;
   drawing.shapes.emplace_back(box(place, edge, edge, muted));
   drawing.shapes.emplace_back(box({place.x + rim, place.y + rim}, edge - 2.0 * rim, edge - 2.0 * rim, grey));
   drawing.shapes.emplace_back(Text{{place.x + edge + 8.0, place.y + edge - 2.0}, words, text_height, Alignment::left, ink});
-  return {place.x + width, place.y};
+  return {place.x + away + std::ceil(letter_width * static_cast<double>(words.size())), place.y};
 }
 
-void add_legend(Drawing& drawing, PagePoint place, const PlanBackground& background, const Greys& greys) {
+void add_legend(Drawing& drawing, PagePoint place, const PlanBackground& background, const Greys& greys,
+                const std::string& why_no_value) {
   PagePoint next = place;
-  if (greys.of_buildings) next = add_grey_legend(drawing, next, covered_grey, "buildings", 108.0);
-  if (greys.others) next = add_grey_legend(drawing, next, no_value_grey, "no data", 92.0);
+  if (greys.of_buildings) next = add_grey_legend(drawing, next, covered_grey, "buildings");
+  if (greys.others) next = add_grey_legend(drawing, next, no_value_grey, why_no_value.empty() ? "no data" : why_no_value);
   if (!background.outlines.empty()) {
     const double y = next.y + 7.5;
     drawing.shapes.emplace_back(Line{{{next.x, y}, {next.x + 22.0, y}}, outline_width, outline_colour});
@@ -284,8 +287,7 @@ PlanBackground plan_background(const Package& package, const RasterPlan& plan, s
 }
 
 PreviewLayout preview_layout(PixelSize map_size, std::size_t letters) {
-  constexpr double letter_width = 0.53 * text_height;  // of a line of them, on average
-  constexpr std::size_t below_long_heading = 12;       // the unit stands above the colours, and must not touch the heading
+  constexpr std::size_t below_long_heading = 12;  // the unit stands above the colours, and must not touch the heading
   const auto heading = static_cast<std::size_t>(letter_width * static_cast<double>(letters));
   PreviewLayout layout;
   layout.map = {margin, margin + heading_height + gap + (heading > map_size.width ? below_long_heading : 0)};
@@ -313,7 +315,7 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, cons
   add_colour_bar(drawing, layout, scale);
   const PagePoint footer = page_point_of(layout.footer);
   add_scale_bar(drawing, footer, raster.metres_per_pixel, raster.columns);
-  add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, background, greys_of(raster, background));
+  add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, background, greys_of(raster, background), frame.why_no_value);
   const double right = static_cast<double>(layout.picture.width - margin);
   add_north_arrow(drawing, {right - 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
   return drawing;

@@ -238,7 +238,7 @@ void add_rings(Drawing& drawing, SkyProjection projection) {
     // Between the directions, where no other text is
     const PagePoint place = page_point_at(45.0, elevation_deg, projection);
     drawing.shapes.emplace_back(
-        Text{{place.x + 3.0, place.y - 3.0}, std::to_string(elevation_deg) + "°", 12.0, Alignment::left, ring_colour});
+        Text{{place.x + 3.0, place.y - 3.0}, std::to_string(elevation_deg) + "°", 13.0, Alignment::left, ink, halo});
   }
   drawing.shapes.emplace_back(ring(0.0, projection, 1.5, ink));
 }

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/lower_case.hpp"
+
 namespace farlod {
 namespace {
 
@@ -46,9 +48,14 @@ constexpr std::array<UnitSigns, 6> units{{{"h", "h", "Hours"},
                                           {"W m-2", "W/m²", "In W/m²"},
                                           {"lx", "lx", "In lx"}}};
 
+/// A name that says no more than the title is left out: "Irradiation", "Sky component".
 std::string title_of(const std::string& band) {
   const auto* const found = std::ranges::find(titles, band, &BandTitle::band);
-  return found == titles.end() ? band : std::string(found->title) + " (" + band + ")";
+  if (found == titles.end()) return band;
+  const std::string title = found->title;
+  std::string words = band;
+  std::ranges::replace(words, '_', ' ');
+  return lower_case(title) == words ? title : title + " (" + band + ")";
 }
 
 double two_digits_of(double value) {
@@ -83,7 +90,7 @@ std::string sign_of_unit(const std::string& unit) {
 }
 
 ValueScale scale_of(const Band& band, double max_value) {
-  ValueScale scale{title_of(band.name), "", "", 1.0};
+  ValueScale scale{title_of(band.name), "", "", 1.0, band.name.starts_with("shade")};
   const auto* const found = std::ranges::find(units, band.unit, &UnitSigns::unit);
   if (found != units.end()) {
     scale.subtitle = found->words;

@@ -23,9 +23,10 @@ struct ValueScale {
   std::string title;     ///< what the band is, and its name: "Sky view factor (svf)"
   std::string subtitle;  ///< the unit in words
   std::string unit;      ///< the same as a sign, "kWh/m²"; empty of a share
-  double end = 1.0;      ///< value of the last colour; the first is that of 0
+  double end = 1.0;      ///< the largest value that has a colour; the least is 0
+  bool falls = false;    ///< the larger the darker: of shade, the sun is bright
 
-  [[nodiscard]] Colour colour_of(double value) const { return colour_of_svf(value / end); }
+  [[nodiscard]] Colour colour_of(double value) const { return colour_of_svf(falls ? 1.0 - value / end : value / end); }
   [[nodiscard]] double step() const { return tick_step(end, 6); }
   /// The multiples of step() from 0 on.
   [[nodiscard]] std::vector<double> ticks() const;

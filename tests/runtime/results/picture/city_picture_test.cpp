@@ -63,6 +63,22 @@ TEST_F(CityPicture, AFewTowersDoNotDecideTheScale) {
   EXPECT_EQ(colour_in_city(100.0, 190.0, scale), colour_of_height(1.0));
 }
 
+TEST_F(CityPicture, ElevationsHaveNoZerosBehindThePoint) {
+  const auto words = [&] {
+    std::vector<std::string> all;
+    for (const auto& shape : draw_city(scenery_).shapes)
+      if (const auto* text = std::get_if<Text>(&shape)) all.push_back(text->words);
+    return all;
+  };
+  EXPECT_THAT(words(), testing::Contains("100 m"));
+  for (float& ground_m : scenery_.heights.ground_m) ground_m -= 100.0F;
+  scenery_.heights.ground_m.back() = -0.02F;
+  EXPECT_THAT(words(), testing::Not(testing::AnyOf(testing::Contains("0.0 m"), testing::Contains("-0 m"))))
+      << "level ground at 0";
+  scenery_.heights.ground_m.back() = 12.34F;
+  EXPECT_THAT(words(), testing::Contains("12.3 m"));
+}
+
 /// The ring around the highest pixel, eight pixels from it.
 TEST_F(CityPicture, RingsTheHighest) {
   EXPECT_NE(at(48, 30), colour_of_ground(1.0));

@@ -165,6 +165,10 @@ TEST(Preview, TheLegendNamesTheGreysThatThereAre) {
   const std::string lit_ground = "Ground without data lit from the north-west";
   EXPECT_THAT(words({0.5F, none}, {{}, {1.0F, 0.8F}, {false, false}}), Contains(lit_ground));
   EXPECT_THAT(words({0.5F, none}, {{}, {0.8F, 1.0F}, {false, false}}), Not(Contains(lit_ground)));
+  WholeRaster near_buildings = raster_of(2, 1, 0.5F);
+  near_buildings.why_no_value = "not within 3 m";
+  EXPECT_THAT(words_in(draw_preview({2, 1, 1.0, {0.5F, none}}, near_buildings, {})),
+              testing::AllOf(Contains("not within 3 m"), Not(Contains("no data"))));
   const auto none_at_all = words({0.5F, 0.5F}, {});
   EXPECT_THAT(none_at_all, Not(testing::AnyOf(Contains("no data"), Contains("buildings"))));
 }
@@ -202,6 +206,27 @@ TEST(ValueScale, SharesEndAtOneAndOtherValuesAtTheirGreatest) {
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).unit, "kWh/m²");
   EXPECT_EQ(scale_of({"sunlit_total_h", "h", ""}, 9.0).title, "Sunshine with trees, were the sky clear (sunlit_total_h)");
   EXPECT_EQ(scale_of({"sunlit_h", "h", ""}, 0.0).end, 1.0);
+}
+
+TEST(ValueScale, TitlesSayNoWordTwice) {
+  EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1.0).title, "Irradiation");
+  EXPECT_EQ(scale_of({"sky_component", "1", ""}, 1.0).title, "Sky component");
+  EXPECT_EQ(scale_of({"irradiance", "W m-2", ""}, 1.0).title, "Mean irradiance (irradiance)");
+}
+
+/// It was yellow in the shade, and dark in the sun.
+TEST(ValueScale, ShadeIsDark) {
+  for (const char* shade : {"shade", "shade_2026-06-21T12:00"}) {
+    const ValueScale scale = scale_of({shade, "1", ""}, 1.0);
+    EXPECT_EQ(scale.colour_of(1.0), colour_of_svf(0.0));
+    EXPECT_EQ(scale.colour_of(0.25), colour_of_svf(0.75));
+  }
+  WholeRaster raster = raster_of(2, 1, 1.0F);
+  raster.bands[0] = {"shade", "1", ""};
+  const PreviewLayout layout = preview_layout({2, 1});
+  const Picture picture = drawn(draw_preview({2, 1, 1.0, {1.0F, 1.0F}}, raster, {}));
+  EXPECT_EQ(picture.at(layout.map), colour_of_svf(0.0));
+  EXPECT_EQ(picture.at(layout.colour_bar), colour_of_svf(0.0)) << "the largest value stands above";
 }
 
 TEST(ValueScale, HasTicksThatPeopleRead) {

@@ -33,5 +33,18 @@ TEST(SkyLegend, NamesTheColoursThatAreThere) {
   EXPECT_THAT(in_park, Not(Contains("buildings, ground: far")));
 }
 
+/// Grey on what is dark, they were not read.
+TEST(SkyLegend, ElevationsAreReadOnAnyColour) {
+  const Hemisphere dark{1, 1, {SkyPart::near}, {0.5F}, 0.0, 0.5F, {}};
+  std::size_t found = 0;
+  for (const auto& shape : draw_sky(dark, SkyProjection::equidistant, {"svf", ""}, {}, {}).shapes)
+    if (const auto* text = std::get_if<Text>(&shape); text != nullptr && (text->words == "30°" || text->words == "60°")) {
+      ++found;
+      EXPECT_EQ(text->colour, ink);
+      EXPECT_EQ(text->halo, (Colour{255, 255, 255}));
+    }
+  EXPECT_EQ(found, 2U);
+}
+
 }  // namespace
 }  // namespace farlod
