@@ -148,7 +148,7 @@ inline constexpr std::array problem_descriptions{
     ProblemDescription{ProblemCode::far_away, "far_away", Effect::left_out,
                        "a facet or a building lies far from all the rest of the city"},
     ProblemDescription{ProblemCode::implausible_size, "implausible_size", Effect::kept,
-                       "a file's buildings are larger than any on Earth, or tiny"},
+                       "sizes or heights of a file can hardly be those of a city in metres"},
     ProblemDescription{ProblemCode::lies_on_its_side, "lies_on_its_side", Effect::kept,
                        "a file's z axis does not seem to point upward"},
     ProblemDescription{ProblemCode::tree_outside_of_grid, "tree_outside_of_grid", Effect::left_out,

@@ -17,6 +17,13 @@ namespace farlod::plausibility {
 ///   (2) storeys: whole numbers up to 60, of which half are at most 8 where the field is called so, or else at most 3
 ///   (3) another unit, or another thing: half are more than 300 m, or half are six times as high as they are wide
 ///   (4) feet: the field is called `heightft`, which is no clear ending as `_ft` is
+///   (5) codes: of 50 buildings and more, whole numbers up to 30, of which one of 50 is 1, as codes begin and no town does
 [[nodiscard]] std::optional<std::string> doubt_about_heights(std::span<const SaidHeight> heights, std::string_view field);
+
+/// The same of a field that was read as numbers of storeys, each `floor_height_m` high.
+///   (1) fractions: half of the values are no whole numbers, nor halves, as heights are
+///   (2) another thing: rule (3) of heights
+[[nodiscard]] std::optional<std::string> doubt_about_storeys(std::span<const SaidHeight> heights, std::string_view field,
+                                                             double floor_height_m);
 
 }  // namespace farlod::plausibility

@@ -225,7 +225,8 @@ std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::
     const bool counts_no_roof = is_column_of(names_[field], levels_below_roof) && !roof_storeys_.empty();
     const FieldValue roof = counts_no_roof ? value_of(roof_storeys_.front()) : FieldValue{};
     const double roof_count = roof.number ? *roof.number : number_from(roof.text).value_or(0.0);
-    return Height{(*count + std::max(roof_count, 0.0)) * floor_height_m_, said(names_[field], value), HeightSource::storeys};
+    return Height{(*count + std::max(roof_count, 0.0)) * floor_height_m_, said(names_[field], value), HeightSource::storeys,
+                  field};
   }
   return std::nullopt;
 }
@@ -284,7 +285,8 @@ std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& r
 
 std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& height, const FieldLookup& value_of) const {
   if (auto objection = objection_to(height.value_m, height.said)) {
-    if (height.field && height.value_m > highest_building_m) objection->too_high = SaidValue{*height.field, height.value_m};
+    if (height.field && height.value_m > highest_building_m)
+      objection->too_high = SaidValue{*height.field, height.value_m, height.source};
     return *objection;
   }
   const double lowest_m = lowest_part_m(value_of);

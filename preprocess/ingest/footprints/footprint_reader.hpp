@@ -55,13 +55,14 @@ struct PrismExtent {
   HeightReference height_reference = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
   Foot foot = Foot::on_ground;
-  std::optional<std::size_t> height_field = {};  ///< that has the height above the base
+  std::optional<std::size_t> field = {};  ///< that has the height above the base, or the storeys
 };
 
 /// A height above the base as a field says it, be it impossible.
 struct SaidValue {
   std::size_t field = 0;
   double value_m = 0.0;
+  HeightSource source = HeightSource::measured;
 };
 
 /// Why a footprint has no prism.

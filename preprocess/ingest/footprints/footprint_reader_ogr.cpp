@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "base/lower_case.hpp"
 #include "farlod/box.hpp"
@@ -22,9 +23,8 @@
 #include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/openstreetmap_areas_gdal.hpp"
+#include "ingest/footprints/said_heights.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
-#include "plausibility/doubtful_heights.hpp"
-#include "plausibility/elevations_as_heights.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -82,7 +82,8 @@ class FootprintLayer {
         table_(layer),
         parts_(layer, table_),
         heights_(table_.names(), with_fields_checked(settings)),
-        is_height_named_(settings.height_field.has_value()) {
+        is_height_named_(settings.height_field.has_value()),
+        floor_height_m_(settings.floor_height_m) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
     require_features();
@@ -104,17 +105,18 @@ class FootprintLayer {
       report(messages, id_of(*feature));
     }
     report(messages, layer_.GetName());
-    for (const auto& [field, heights] : said_) plausibility::require_heights(builder_.source(), table_.names()[field], heights);
-    report_doubts();
+    said_.require_no_elevations(builder_.source(), table_.names());
+    for (const std::string& doubt : said_.doubts(table_.names(), floor_height_m_))
+      builder_.add_problem_at("the whole file", ProblemCode::implausible_size, doubt);
   }
 
   /// For the user: which layer is read, if there are `others`, and how many heights are not measured ones.
-  [[nodiscard]] std::vector<std::string> notes(double floor_height_m, const std::string& others) const {
+  [[nodiscard]] std::vector<std::string> notes(const std::string& others) const {
     std::vector<std::string> notes;
     if (!others.empty())
       notes.push_back(builder_.source() + ": only the layer " + layer_.GetName() + " is read; --layer reads another: " + others);
     std::ostringstream storeys;
-    storeys << builder_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m << " m";
+    storeys << builder_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m_ << " m";
     if (raised_by_storeys_ > 0) notes.push_back(std::move(storeys).str());
     if (raised_by_default_ > 0)
       notes.push_back(builder_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
@@ -272,16 +274,17 @@ class FootprintLayer {
     if (const auto* reason = std::get_if<Unraised>(&answer)) {
       require_text(reason->detail);
       builder_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
-      if (reason->too_high) keep_said(reason->too_high->field, {reason->too_high->value_m, size_m2(polygons.front())}, too_high_);
+      if (const auto& said = reason->too_high)
+        said_.keep_too_high({said->field, said->source}, {said->value_m, size_m2(polygons.front())});
       return;
     }
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
     if (const auto owner = row.owner()) owners_of_parts_.push_back(*owner);
-    if (extent.height_field) {
-      ++raised_by_field_[*extent.height_field];
-      keep_said(*extent.height_field, extent, polygons.front(), outline_m);
+    if (extent.field) {
+      if (extent.source == HeightSource::measured) ++raised_by_field_[*extent.field];
+      keep_said({*extent.field, extent.source}, extent, polygons.front(), outline_m);
     }
     builder_.begin_building(id, extent.height_reference, extent.foot);
     for (std::size_t part = 0; part < polygons.size(); ++part)
@@ -298,35 +301,11 @@ class FootprintLayer {
     return scale.x * size.x * scale.y * size.y;
   }
 
-  /// What is said of some buildings, to find out whether it is no height.
-  using HeightsOfFields = std::map<std::size_t, std::vector<plausibility::SaidHeight>>;
-  static void keep_said(std::size_t field, const plausibility::SaidHeight& said, HeightsOfFields& heights) {
-    constexpr std::size_t enough = 10'000;
-    if (heights[field].size() < enough) heights[field].push_back(said);
-  }
-
-  void keep_said(std::size_t field, const PrismExtent& extent, const Rings& rings, double outline_m) {
+  void keep_said(const SaidHeights::Field& field, const PrismExtent& extent, const Rings& rings, double outline_m) {
     if (rings.empty() || rings.front().empty()) return;
     const bool has_base = extent.height_reference == HeightReference::elevation;
-    keep_said(field,
-              {has_base ? extent.top_m - extent.base_m : extent.top_m, size_m2(rings), outline_m,
-               has_base ? std::optional(extent.base_m) : std::nullopt},
-              said_);
-  }
-
-  void report_doubts() {
-    HeightsOfFields all = said_;
-    for (const auto& [field, heights] : too_high_) {
-      // One number that many have means unknown
-      const auto is_first = [first_m = heights.front().height_m](const plausibility::SaidHeight& h) {
-        return h.height_m == first_m;
-      };
-      if (!std::all_of(heights.begin(), heights.end(), is_first))
-        all[field].insert(all[field].end(), heights.begin(), heights.end());
-    }
-    for (const auto& [field, heights] : all)
-      if (const auto doubt = plausibility::doubt_about_heights(heights, table_.names()[field]))
-        builder_.add_problem_at("the whole file", ProblemCode::implausible_size, table_.names()[field] + " " + *doubt);
+    said_.keep(field, {has_base ? extent.top_m - extent.base_m : extent.top_m, size_m2(rings), outline_m,
+                       has_base ? std::optional(extent.base_m) : std::nullopt});
   }
 
   OGRLayer& layer_;
@@ -339,8 +318,9 @@ class FootprintLayer {
   bool holds_bodies_ = false;
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
   bool is_height_named_ = false;
+  double floor_height_m_;
   std::map<std::size_t, std::size_t> raised_by_field_;
-  HeightsOfFields said_, too_high_;  ///< by field
+  SaidHeights said_;
   std::vector<std::string> owners_of_parts_;
 };
 
@@ -393,7 +373,7 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
           .crs = {wkt_of(layer->GetSpatialRef()), true, !footprints.holds_bodies()},
           .city = builder.take_city(),
           .skipped = footprints.skipped(),
-          .notes = footprints.notes(settings.floor_height_m, settings.layer ? "" : others),
+          .notes = footprints.notes(settings.layer ? "" : others),
           .owners_of_parts = footprints.owners_of_parts()};
 }
 

@@ -21,9 +21,9 @@ using testing::HasSubstr;
 constexpr int houses_of_row = 12;
 
 /// A row of houses of 10 m × 12 m, whose fields are what `fields_of` says.
-std::string row_of_houses(const std::function<std::string(int)>& fields_of) {
+std::string row_of_houses(const std::function<std::string(int)>& fields_of, int houses = houses_of_row) {
   std::vector<std::string> features;
-  for (int n = 0; n < houses_of_row; ++n) {
+  for (int n = 0; n < houses; ++n) {
     const double x = 690'000.0 + 30.0 * n, y = 5'335'000.0;
     const auto corner = [&](double dx, double dy) { return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]"; };
     features.push_back(feature(
@@ -33,8 +33,8 @@ std::string row_of_houses(const std::function<std::string(int)>& fields_of) {
   return collection(features, R"("crs":{"type":"name","properties":{"name":"EPSG:25832"}},)");
 }
 
-std::string houses_with(const std::string& field, const std::function<double(int)>& value_of) {
-  return row_of_houses([&](int n) { return "\"" + field + "\":" + std::to_string(value_of(n)); });
+std::string houses_with(const std::string& field, const std::function<double(int)>& value_of, int houses) {
+  return row_of_houses([&](int n) { return "\"" + field + "\":" + std::to_string(value_of(n)); }, houses);
 }
 
 IngestSettings named(const std::string& field) {
@@ -43,9 +43,16 @@ IngestSettings named(const std::string& field) {
   return settings;
 }
 
+IngestSettings named_storeys(const std::string& field) {
+  IngestSettings settings;
+  settings.footprints.storeys_field = field;
+  return settings;
+}
+
 /// What is said of a field with such values.
-std::string doubt_about(const std::string& field, const std::function<double(int)>& value_of) {
-  const Reading r = read_text("a.geojson", houses_with(field, value_of), named(field));
+std::string doubt_about(const std::string& field, const std::function<double(int)>& value_of,
+                        IngestSettings (*as)(const std::string&) = named, int houses = houses_of_row) {
+  const Reading r = read_text("a.geojson", houses_with(field, value_of, houses), as(field));
   for (const Problem& problem : r.report.problems())
     if (problem.code == ProblemCode::implausible_size) return problem.detail;
   return "no doubt";
@@ -73,6 +80,42 @@ TEST(DoubtfulHeights, AreasAndOtherNumbersAreTold) {
   EXPECT_EQ(doubt_about("h", [](int n) { return n == 0 ? 160.0 : 10.0 + n; }), "no doubt");
 }
 
+/// They were 3 m each, whatever the field holds.
+TEST(DoubtfulStoreys, HeightsAreToldByTheirFractions) {
+  const auto heights = [](int n) { return 2.2 + 1.3 * n; };
+  EXPECT_THAT(doubt_about("TAKASA", heights, named_storeys),
+              AllOf(HasSubstr("TAKASA holds numbers with fractions, of which a typical one is 10"),
+                    HasSubstr("--height-field TAKASA in place of --storeys-field")));
+  EXPECT_EQ(doubt_about(
+                "levels", [](int n) { return 1.5 + n % 5; }, named_storeys),
+            "no doubt")
+      << "attics";
+  EXPECT_EQ(doubt_about(
+                "levels", [](int n) { return 1.0 + n; }, named_storeys),
+            "no doubt");
+}
+
+TEST(DoubtfulStoreys, AreasAndNumbersAreToldByWhatTheyMake) {
+  EXPECT_THAT(doubt_about(
+                  "area", [](int n) { return 60.0 + 5.0 * n; }, named_storeys),
+              AllOf(HasSubstr("area holds values of which a typical one is 90, and they were read as storeys of 3 m"),
+                    HasSubstr("--storeys-field")));
+  EXPECT_THAT(doubt_about(
+                  "year", [](int n) { return n < 2 ? 3.0 : 1950.0 + n; }, named_storeys),
+              HasSubstr("a typical one is 195"));
+}
+
+TEST(DoubtfulHeights, CodesAreToldByTheirOnes) {
+  const auto of_use = [](int n) { return n % 20 == 0 ? 1.0 : 5.0 + n % 7; };
+  EXPECT_THAT(doubt_about("YOUTO", of_use, named, 60),
+              AllOf(HasSubstr("YOUTO holds whole numbers from 1 to 11, of which 5 % are 1"), HasSubstr("are they codes")));
+  EXPECT_EQ(doubt_about("h", of_use), "no doubt") << "a few";
+  EXPECT_EQ(doubt_about(
+                "h", [&](int n) { return of_use(n) + 1.0; }, named, 60),
+            "no doubt")
+      << "whole metres";
+}
+
 TEST(DoubtfulHeights, ValuesThatNoBuildingHasCount) {
   const auto many_beyond = [](int n) { return n < 2 ? 20.0 : 4000.0 + n; };
   EXPECT_THAT(doubt_about("id", many_beyond), HasSubstr("a typical one is 40"));
@@ -83,7 +126,7 @@ TEST(DoubtfulHeights, FeetAreToldByTheNameOfTheirField) {
   const auto some = [](int n) { return 20.5 + n; };
   EXPECT_THAT(doubt_about("heightft", some), AllOf(HasSubstr("are they feet?"), HasSubstr("rename it to height_ft")));
   for (const std::string name : {"height_ft", "HeightFt", "height (ft)", "HEIGHTFEET"}) {
-    const Reading r = read_text("a.geojson", houses_with(name, some), named(name));
+    const Reading r = read_text("a.geojson", houses_with(name, some, houses_of_row), named(name));
     EXPECT_THAT(r.source.notes, ElementsAre(HasSubstr("12 heights are of the field " + name + ", which is in feet")));
     EXPECT_NEAR(r.city().points_of(r.city().buildings()[0])[0].z, 20.5 * 0.3048, 1e-9) << name;
   }
