@@ -207,23 +207,25 @@ struct CrownCounts {
 /// What the ground between the buildings follows from.
 enum class GroundSource : std::uint8_t {
   terrain,
-  relief,  ///< of the city files
-  bases,   ///< of buildings
-  nothing  ///< it is flat: footprints do not say where they stand
+  relief,   ///< of the city files
+  bases,    ///< of buildings
+  nothing,  ///< it is flat: footprints do not say where they stand
+  surface   ///< of a raster that is the city, roofs and ground alike
 };
 
 /// Where a city lies and how high it is: what a person looks at to see whether it is the right one.
 struct CityLooks {
   struct Heights {
-    double least_m = 0.0, median_m = 0.0, tallest_m = 0.0;  ///< from the lowest point of a building to its highest
+    /// From the lowest point of a building to its highest; of a raster that is the city, of the walls between its pixels.
+    double least_m = 0.0, median_m = 0.0, tallest_m = 0.0;
   };
   struct Ground {
-    double low_m = 0.0, high_m = 0.0;  ///< at the buildings; of a relief, all of it
+    double low_m = 0.0, high_m = 0.0;  ///< at the buildings; of a relief and of a surface, all of it
     GroundSource source = GroundSource::bases;
   };
   std::optional<Point2d> lon_lat_deg;  ///< the middle of the buildings, in WGS 84
   std::string country;                 ///< that the CRS of the package is meant for; empty where it is not for one alone
-  std::optional<Heights> heights;      ///< none without buildings
+  std::optional<Heights> heights;      ///< none without buildings and walls
   std::optional<Ground> ground;
 };
 

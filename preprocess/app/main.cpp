@@ -139,12 +139,17 @@ void print_looks(const CityLooks& looks) {
   if (const auto& p = looks.lon_lat_deg)
     fmt::print("Place: latitude {:.4f}, longitude {:.4f}{}\n", p->y, p->x,
                looks.country.empty() ? "" : " (" + looks.country + ")");
+  const bool is_surface = looks.ground && looks.ground->source == GroundSource::surface;
   if (const auto& h = looks.heights)
-    fmt::print("Heights: least {:.1f} m, median {:.1f} m, tallest {:.1f} m\n", h->least_m, h->median_m, h->tallest_m);
+    fmt::print("Heights{}: least {:.1f} m, median {:.1f} m, tallest {:.1f} m\n", is_surface ? " of walls" : "", h->least_m,
+               h->median_m, h->tallest_m);
+  else if (is_surface)
+    fmt::print("Heights of walls: none, since slopes stand between all pixels\n");
   if (const auto& g = looks.ground; g && g->source == GroundSource::nothing)
     fmt::print("Ground: flat, since neither the files nor a terrain tell it\n");
   else if (g)
-    fmt::print("Ground: {:.1f} m to {:.1f} m, from the {}\n", g->low_m, g->high_m, name_of(g->source));
+    fmt::print("Ground{}: {:.1f} m to {:.1f} m, from the {}\n", is_surface && looks.heights ? " and roofs" : "", g->low_m,
+               g->high_m, name_of(g->source));
 }
 
 /// How many buildings are missing; the lines above it say why.
@@ -155,11 +160,25 @@ void print_left_out(std::size_t left_out, std::uint64_t kept) {
                100.0 * static_cast<double>(left_out) / all);
 }
 
+/// What a city without buildings of its own is made of.
+std::string name_of_ground_alone(const CityLooks& looks) {
+  if (looks.ground->source != GroundSource::surface) return fmt::format("A {}, and no buildings", name_of(looks.ground->source));
+  return looks.heights ? "A surface model; buildings are a part of it" : "A surface model without walls";
+}
+
+void print_contents(const PackResult& result, std::size_t problems) {
+  const PackageDescription& m = result.package;
+  if (m.buildings == 0 && result.looks.ground)
+    fmt::print("{}", name_of_ground_alone(result.looks));
+  else
+    fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
+  if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
+  fmt::print(", {} {}\n", problems, problems == 1 ? "problem" : "problems");
+}
+
 void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
   const PackageDescription& m = result.package;
-  fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
-  if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
-  fmt::print(", {} {}\n", report.problems().size(), report.problems().size() == 1 ? "problem" : "problems");
+  print_contents(result, report.problems().size());
   if (result.crowns != CrownCounts{} || options.settings.trees.any())
     fmt::print("Crowns: {} of trees, {} of cells of a canopy\n", result.crowns.of_trees, result.crowns.of_canopy);
   print_problems(report, options.report_file);
@@ -169,8 +188,9 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   for (const std::string& note : result.notes) fmt::print("{}\n", note);
   print_looks(result.looks);
   fmt::print("CRS: {}\n", m.crs_name);
-  fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.street_bearing.degrees(),
-             (result.street_bearing + m.convergence).degrees(), result.alignment_strength);
+  if (m.buildings > 0)
+    fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.street_bearing.degrees(),
+               (result.street_bearing + m.convergence).degrees(), result.alignment_strength);
   fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighborhood {} × {}\n", m.grid_bearing.degrees(), m.columns,
              m.rows, m.cell_edge_m, m.neighborhood, m.neighborhood);
   if (options.settings.area)

@@ -85,6 +85,8 @@ std::string_view name_of(GroundSource source) {
       return "relief";
     case GroundSource::bases:
       return "bases of buildings";
+    case GroundSource::surface:
+      return "surface model";
     case GroundSource::nothing:
       break;
   }

@@ -66,8 +66,10 @@ struct TerrainExtent {
 [[nodiscard]] std::string heights_of_terrain(const TerrainFile& file);
 /// Reads the tiles of one terrain, of which some may lie elsewhere. Throws InputError when all do, and as for a single file.
 /// Where neither the city nor a file before says its vertical system, that of a file is the one of those after it.
+/// Without `wanted_city`, heights that are hardly those of a city are reported (implausible_size).
 [[nodiscard]] TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs,
-                                         Georeference georeference, std::optional<Box2d> wanted_city, Report& report);
+                                         const Georeference& georeference, const std::optional<Box2d>& wanted_city,
+                                         Report& report);
 /// One net of several, as fine as the finest. Where they overlap, later ones lie on top, but for where they have no data.
 [[nodiscard]] TerrainRaster merged(const std::vector<TerrainRaster>& tiles);
 

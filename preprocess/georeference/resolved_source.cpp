@@ -293,6 +293,22 @@ void report_place(const std::string& raster, const Crs& crs, Point2d middle, Poi
   of_file.add(ProblemCode::implausible_size, std::move(text).str());
 }
 
+void report_whole_file(ProblemCode code, const std::string& file, std::string detail, const Point3d& p_city,
+                       const Georeference& georeference, Report& report) {
+  const Point2d& origin_m = georeference.origin_m;
+  Problem problem{code, file, "the whole file", std::move(detail), p_city + Point3d{origin_m.x, origin_m.y, 0.0}};
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  ProblemLocator(*output, FileAxes{}, origin_m).locate(problem);
+  report.add(std::move(problem));
+}
+
+void report_surface(const std::string& file, const plausibility::SurfaceShape& shape_city, const Georeference& georeference,
+                    Report& report) {
+  if (auto doubt = plausibility::doubt_about_surface(shape_city))
+    report_whole_file(ProblemCode::implausible_size, file, std::move(*doubt), *shape_city.highest, georeference, report);
+}
+
 void report_output(const Crs& input, const Crs& output, Point2d typical, Report& report) {
   if (!may_be_used_at(input, typical)) return;
   const auto p = CrsTransformation(input, output, typical).apply(typical);

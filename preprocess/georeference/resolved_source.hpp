@@ -14,6 +14,7 @@
 #include "farlod/problem.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/input_crs.hpp"
+#include "plausibility/doubtful_surface.hpp"
 
 namespace farlod::georeference {
 
@@ -87,6 +88,15 @@ struct ResolvedSource {
 /// The same for a raster, by its middle pixel and the one beside it: unlikely_place, and implausible_size where pixels are
 /// smaller than a centimetre or wider than 10 km. Throws InputError as `resolve` does.
 void report_place(const std::string& raster, const Crs& crs, Point2d middle, Point2d beside, Report& report);
+
+/// Reports what concerns a whole file, with a place of the city frame.
+void report_whole_file(ProblemCode code, const std::string& file, std::string detail, const Point3d& p_city,
+                       const Georeference& georeference, Report& report);
+
+/// Reports the heights of a city without buildings of its own where they are hardly those of a city (implausible_size), at the
+/// highest of them.
+void report_surface(const std::string& file, const plausibility::SurfaceShape& shape_city, const Georeference& georeference,
+                    Report& report);
 
 /// Reports an output CRS that is not meant to be used where the city lies (unlikely_place), unless its input's is not either.
 /// `typical` is a place of the city in that.

@@ -203,6 +203,7 @@ std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const 
   for (int row = 0; row < raster.rows(); ++row)
     for (const Point3d& p : centres_of_row(raster, frame, row, projection))
       if (is_on_a_map(p)) surface.points_city.push_back(p - Point3d{georeference.origin_m.x, georeference.origin_m.y, 0.0});
+  report_surface(file.path.string(), plausibility::shape_of(surface.points_city), georeference, report);
   surface.note = file.path.string() + ": since " + (own.equals(*output) ? "it is turned" : "it is in " + own.name()) +
                  ", the centres of its pixels are brought to " + output->name() +
                  " one by one; slopes stand between them, and no walls";

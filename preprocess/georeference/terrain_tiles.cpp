@@ -6,7 +6,6 @@
 #include <sstream>
 #include <utility>
 
-#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/raster_reader.hpp"
@@ -68,12 +67,8 @@ void lay_upon(TerrainRaster& net, const TerrainRaster& tile) {
 /// A whole tile of a terrain that is doubted.
 void report_tile(ProblemCode code, const TerrainFile& file, const TerrainRaster& tile, const Georeference& georeference,
                  std::string detail, Report& report) {
-  const Point2d place = tile.node(tile.columns / 2, tile.rows / 2) + georeference.origin_m;
-  Problem problem{code, file.path.string(), "the whole file", std::move(detail), Point3d{place.x, place.y, 0.0}};
-  const auto output = Crs::find(georeference.crs_wkt);
-  FARLOD_EXPECTS(output.has_value());
-  ProblemLocator(*output, FileAxes{}, place).locate(problem);
-  report.add(std::move(problem));
+  const Point2d place = tile.node(tile.columns / 2, tile.rows / 2);
+  report_whole_file(code, file.path.string(), std::move(detail), {place.x, place.y, 0.0}, georeference, report);
 }
 
 std::string detail_of_seam(double step_m, const TerrainFile& below) {
@@ -119,8 +114,10 @@ TerrainRaster merged(const std::vector<TerrainRaster>& tiles) {
   return net;
 }
 
-TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs, Georeference georeference,
-                           std::optional<Box2d> wanted_city, Report& report) {
+namespace {
+
+TerrainRaster read_tiles(std::span<const TerrainFile> files, const std::string& fallback_crs, Georeference georeference,
+                         const std::optional<Box2d>& wanted_city, Report& report) {
   if (files.size() == 1) return read_terrain(files.front(), fallback_crs, georeference, wanted_city, report);
   std::vector<TerrainRaster> tiles;
   std::vector<TerrainFile> files_here;
@@ -136,6 +133,15 @@ TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string
                      files.front().path.string() + " being the first: check their CRS");
   compare_tiles(tiles, files_here, georeference, report);
   return merged(tiles);
+}
+
+}  // namespace
+
+TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs, const Georeference& georeference,
+                           const std::optional<Box2d>& wanted_city, Report& report) {
+  TerrainRaster terrain = read_tiles(files, fallback_crs, georeference, wanted_city, report);
+  if (!wanted_city) report_surface(files.front().path.string(), plausibility::shape_of(terrain), georeference, report);
+  return terrain;
 }
 
 }  // namespace farlod::georeference

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "georeference/place_on_earth.hpp"
+#include "tiles/pixel_steps.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -30,7 +32,13 @@ CityLooks::Heights heights_in(std::vector<double> heights_m) {
   return {ends.least_m, *middle, ends.tallest_m};
 }
 
+/// A turned raster is read as points.
+bool is_surface(const ReadCity& city) {
+  return city.located.city.buildings().empty() && (city.ground.terrain || city.located.sources.empty());
+}
+
 GroundSource source_of(const ReadCity& city) {
+  if (is_surface(city)) return GroundSource::surface;
   if (city.ground.terrain) return GroundSource::terrain;
   if (!city.located.relief_points.empty()) return GroundSource::relief;
   const auto buildings = city.located.city.buildings();
@@ -42,6 +50,24 @@ GroundSource source_of(const ReadCity& city) {
 
 std::optional<double> survey_at(const ReadCity& city, Point2d p_city) {
   return city.ground.terrain ? city.ground.terrain->height_at(p_city) : std::nullopt;
+}
+
+void add_points(const ReadCity& city, HeightRange& range) {
+  for (const Point3d& p : city.located.relief_points) range.add(p.z);
+}
+
+/// A city without buildings: the walls that a raster shows, and how far it reaches up and down.
+void look_at_ground(const ReadCity& city, CityLooks& looks) {
+  HeightRange range;
+  add_points(city, range);
+  if (const auto& raster = city.ground.terrain) {
+    for (const auto& height_m : raster->height_m)
+      if (height_m) range.add(*height_m);
+    std::vector<double> walls_m;
+    if (raster->covers_pixels) walls_m = tiles::PixelSteps(*raster).heights_m(*raster);
+    if (!walls_m.empty()) looks.heights = heights_in(std::move(walls_m));
+  }
+  if (!range.is_empty()) looks.ground = CityLooks::Ground{range.low, range.high, source_of(city)};
 }
 
 /// Goes through the buildings once.
@@ -66,8 +92,7 @@ void look_at_buildings(const ReadCity& city, CityLooks& looks) {
     else if (survey_m && z.high > *survey_m)
       heights_m.push_back(z.high - *survey_m);
   });
-  if (source == GroundSource::relief)
-    for (const Point3d& p : city.located.relief_points) ground.add(p.z);
+  if (source == GroundSource::relief) add_points(city, ground);
   if (!heights_m.empty()) looks.heights = heights_in(std::move(heights_m));
   if (source == GroundSource::nothing) ground.add(0.0);
   if (!ground.is_empty()) looks.ground = CityLooks::Ground{ground.low, ground.high, source};
@@ -80,7 +105,7 @@ CityLooks looks_of(const ReadCity& city) {
   const georeference::PlaceOnEarth place = georeference::place_of(city.located.georeference);
   looks.lon_lat_deg = place.lon_lat_deg;
   looks.country = place.country;
-  if (!city.located.city.buildings().empty()) look_at_buildings(city, looks);
+  city.located.city.buildings().empty() ? look_at_ground(city, looks) : look_at_buildings(city, looks);
   return looks;
 }
 

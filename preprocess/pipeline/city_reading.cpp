@@ -16,6 +16,7 @@
 #include "city/geometry.hpp"
 #include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
+#include "georeference/resolved_source.hpp"
 #include "ingest/files/file_format.hpp"
 #include "tiles/pixel_steps.hpp"
 
@@ -145,6 +146,10 @@ class CityReading {
     });
     read_.located = georeference::georeference(std::move(sources), settings, report_);
     std::move(read_.located.notes.begin(), read_.located.notes.end(), std::back_inserter(read_.notes));
+    const LocatedCity& located = read_.located;
+    if (located.city.buildings().empty())
+      georeference::report_surface(located.sources.front(), plausibility::shape_of(located.relief_points),
+                                   located.georeference, report_);
   }
 
   /// Its points are read like those of a relief.

@@ -57,6 +57,22 @@ void PixelSteps::join(const TerrainRaster& raster, const Line& line) {
   }
 }
 
+std::vector<double> PixelSteps::heights_m(const TerrainRaster& raster) const {
+  std::vector<double> heights;
+  heights.reserve(count_);
+  const auto add = [&](std::size_t n, std::size_t next, std::uint8_t side) {
+    const auto &from = raster.height_m[n], &to = raster.height_m[next];
+    if (from && to && (joined_[n] & side) == 0) heights.push_back(std::abs(double{*to} - double{*from}));
+  };
+  for (std::size_t row = 0; row < raster.rows; ++row)
+    for (std::size_t column = 0; column < columns_; ++column) {
+      const std::size_t n = at(column, row);
+      if (column + 1 < columns_) add(n, n + 1, east);
+      if (row + 1 < raster.rows) add(n, n + columns_, north);
+    }
+  return heights;
+}
+
 PixelsInGrid pixels_in_grid(const TerrainRaster& raster, const GridRotation& rotation) {
   // What the rotation makes of a vector along the x axis: its cosine and its sine, to the bit
   const Point2d turned = rotation.grid_from_city(Point2d{1.0, 0.0});

@@ -32,6 +32,8 @@ class PixelSteps {
   [[nodiscard]] bool joins_north(std::size_t column, std::size_t row) const { return (joined_[at(column, row)] & north) != 0; }
   /// Sides of pixels between two heights.
   [[nodiscard]] std::size_t count() const { return count_; }
+  /// How high each of these steps is. The raster is the same.
+  [[nodiscard]] std::vector<double> heights_m(const TerrainRaster& raster) const;
 
   /// Leaves those squares to readers (PixelSquares) that are whole, not level, and lie within one cell of the grid, where
   /// `are_enough(count)`. Tells how many are left out. The raster is the same, and its pixels are squares.

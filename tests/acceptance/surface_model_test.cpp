@@ -67,6 +67,36 @@ TEST_F(SurfaceModel, IsDescribedAsOne) {
   EXPECT_THAT(rough, testing::HasSubstr("Far maps      none, and none is missing: rays march over the pixels"));
 }
 
+/// It said "0 buildings" and "Streets: 0.00°", and no height.
+TEST_F(SurfaceModel, IsToldByTheHeightsOfItsWalls) {
+  pack([](Point2d p) { return norm(p) >= 25.0; }, "--summary said.json");
+  EXPECT_THAT(said(), testing::HasSubstr("A surface model; buildings are a part of it, 0 problems\n"));
+  EXPECT_THAT(said(), testing::HasSubstr("Heights of walls: least 20.0 m, median 20.0 m, tallest 20.0 m\n"
+                                         "Ground and roofs: 5.0 m to 25.0 m, from the surface model\n"));
+  EXPECT_THAT(said(), testing::Not(testing::HasSubstr("Streets")));
+  const auto looks = folder.json_of("said.json").at("looks");
+  EXPECT_EQ(looks.at("heights_m").at("median"), 20.0);
+  EXPECT_EQ(looks.at("ground_m"), (nlohmann::json{{"low", 5.0}, {"high", 25.0}, {"from", "surface model"}}));
+  pack_heights([](Point2d p) { return 0.5 * p.x; });
+  EXPECT_THAT(said(), testing::HasSubstr("A surface model without walls, 0 problems\n"));
+  EXPECT_THAT(said(), testing::HasSubstr("Heights of walls: none"));
+  EXPECT_THAT(said(), testing::HasSubstr("Ground: -20.0 m to 20.0 m"));
+}
+
+/// They were packed with 0 problems.
+TEST_F(SurfaceModel, OfOtherUnitsAndQuantitiesIsDoubted) {
+  const auto in_cm = [](Point2d p) { return std::fmod(std::abs(p.x), 20.0) > 10.0 ? 2500.0 : 500.0; };
+  pack_heights(in_cm, "--report report.json");
+  EXPECT_THAT(said(), testing::HasSubstr("Doubtful (208 implausible_size): dsm.asc: its heights, from 500 m to 2500 m"));
+  const auto problem = folder.json_of("report.json").at(0);
+  EXPECT_EQ(problem.at("place"), "the whole file");
+  EXPECT_EQ(problem.at("position").at(2), 2500.0);
+  EXPECT_TRUE(problem.at("lon_lat").is_array());
+  pack_heights([](Point2d p) { return 0.5 + 0.5 * std::sin(0.1 * p.x) * std::cos(0.1 * p.y); });
+  EXPECT_THAT(said(), testing::HasSubstr("Doubtful (208 implausible_size): dsm.asc: its heights lie between 0.0"));
+  EXPECT_EQ(folder.run("farlod-pack --terrain dsm.asc --crs EPSG:32632 -o b.farlod --strict").exit_code, exit_unusable_input);
+}
+
 class SurfaceModelRead : public SurfaceModel, public testing::WithParamInterface<Reading> {};
 
 TEST_P(SurfaceModelRead, RectangularCourt) {

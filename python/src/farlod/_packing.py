@@ -56,7 +56,8 @@ class Report:
     problems : list of Problem
         In the order in which they were met.
     facts : mapping
-        ``latitude`` and ``longitude`` of the middle (WGS 84), ``heights_m`` of buildings, the range ``ground_m`` of the ground,
+        ``latitude`` and ``longitude`` of the middle (WGS 84), ``heights_m`` of buildings or of the walls of a surface model,
+        the range ``ground_m`` of the ground (of a surface model, of all of it),
         ``street_bearing_deg``, ``alignment_strength``, ``skipped`` features, ``notes``, ``package_bytes``, ``seconds`` of each
         stage, ...
     """
