@@ -105,12 +105,10 @@ PagedArray<float> trunks_below(const CanopyRaster& canopy, const PlacedRaster& t
   return below;
 }
 
-CanopyRaster read_tops(const PlacedRaster& tops, const Box2d& wanted, Point2d origin_m, const std::stop_token& stop) {
+CanopyRaster read_tops(const PlacedRaster& tops, const Crs& output, const Box2d& wanted, Point2d origin_m,
+                       const std::stop_token& stop) {
   const RasterWindow w = window_of(tops, wanted);
-  if (w.is_empty())
-    throw InputError(
-        tops.path.string() +
-        ": does not meet the city: check its CRS, which was taken to be that of --crs or the output if it says none");
+  if (w.is_empty()) refuse_elsewhere(tops.path.string(), tops, output, wanted);
   const PixelFrame frame = tops.frame();
   CanopyRaster canopy;
   canopy.source = tops.path.string();
@@ -140,7 +138,7 @@ std::pair<CanopyRaster, std::vector<std::string>> read_canopy(const CanopyFiles&
   const Point2d origin_m = georeference.origin_m;
   const Box2d wanted{wanted_city.low + origin_m, wanted_city.high + origin_m};
   const PlacedRaster tops = make_ready(files.tops, files.layer, fallback_crs, *output);
-  CanopyRaster canopy = read_tops(tops, wanted, origin_m, stop);
+  CanopyRaster canopy = read_tops(tops, *output, wanted, origin_m, stop);
   std::vector<std::string> notes;
   if (!tops.note.empty()) notes.push_back(tops.note);
   if (!files.trunks) return {std::move(canopy), std::move(notes)};

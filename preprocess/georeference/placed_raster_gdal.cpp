@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "georeference/placed_raster_gdal.hpp"
 
+#include <fmt/core.h>
 #include <gdal_priv.h>
 
 #include <sstream>
 
+#include "farlod/error.hpp"
 #include "gdal/height_raster_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/input_crs.hpp"
@@ -46,15 +48,43 @@ Crs PlacedRaster::take_crs(const std::string& fallback_crs, const Crs& output) {
   const std::string own_wkt = wkt_of(file->GetSpatialRef());
   const bool unnamed = own_wkt.empty() && fallback_crs.empty();
   Crs crs = unnamed ? output : crs_of_input(path.string(), own_wkt, fallback_crs).crs;
+  whose_crs = find_crs(own_wkt) ? "its own CRS"
+              : unnamed         ? "that of the city, since the file names none"
+                                : "that of --crs, since the file names none that is known";
   GDALRasterBand& band = *file->GetRasterBand(1);
   const double unit_m = named_unit_m(band).value_or(crs.height_unit_m());
   scale = {unit_m * band.GetScale(), unit_m * band.GetOffset()};
+  own = crs;
   return crs;
 }
 
 void PlacedRaster::warp(const WarpWay& way, const Crs& output) {
   warped = warped_raster(unwarped(), way);
   if (!warped) refuse_raster(path, "cannot be brought into " + output.name());
+}
+
+namespace {
+
+std::string text_of(const Box2d& box, const Crs& crs) {
+  const int digits = crs.is_projected() ? 0 : 5;
+  return fmt::format("from {:.{}f}, {:.{}f} to {:.{}f}, {:.{}f} in {}", box.low.x, digits, box.low.y, digits, box.high.x, digits,
+                     box.high.y, digits, crs.name());
+}
+
+}  // namespace
+
+void refuse_elsewhere(const std::string& name, const PlacedRaster& raster, const Crs& output, const Box2d& wanted) {
+  std::string there;
+  if (raster.warped) {
+    Box2d box;
+    const PixelFrame frame = raster.frame();
+    for (const Point2d corner : {frame.place(0.0, 0.0), frame.place(raster.columns(), raster.rows())}) box.add(corner);
+    there = ", which is " + text_of(box, output);
+  }
+  throw InputError(fmt::format(
+      "{} does not meet the city: it lies {} ({}){}; the city with its cells lies {}. Is one of the two CRSs wrong (--crs is for "
+      "files that name none), or is the file of another place?",
+      name, text_of(raster.extent(), *raster.own), raster.whose_crs, there, text_of(wanted, output)));
 }
 
 std::string length_text(double length_m) {

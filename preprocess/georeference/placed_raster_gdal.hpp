@@ -57,7 +57,9 @@ struct PlacedRaster {
   std::shared_ptr<GDALDataset> file, cleared = {};  ///< `cleared` has no data where the file does not declare it
   std::shared_ptr<GDALDataset> warped = {};         ///< empty when the pixels stay where they are
   HeightScale scale = {};
-  std::string note = {};  ///< what was done to it, for the user
+  std::string note = {};         ///< what was done to it, for the user
+  std::optional<Crs> own = {};   ///< the CRS of the file, once it is taken
+  std::string whose_crs = {};    ///< from where it has that, for messages
 
   [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : unwarped(); }
   [[nodiscard]] GDALDataset& unwarped() const { return cleared ? *cleared : *file; }
@@ -76,6 +78,10 @@ struct PlacedRaster {
   /// Pixels are computed when they are read. Throws InputError where GDAL cannot.
   void warp(const WarpWay& way, const Crs& output);
 };
+
+/// For a raster that does not meet the city: where both lie, and why it is taken to lie there. `name` is how the message calls
+/// it; `wanted` is in the output CRS. Throws InputError.
+[[noreturn]] void refuse_elsewhere(const std::string& name, const PlacedRaster& raster, const Crs& output, const Box2d& wanted);
 
 /// A length as messages show it: five digits.
 [[nodiscard]] std::string length_text(double length_m);

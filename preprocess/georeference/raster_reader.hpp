@@ -25,6 +25,7 @@ struct TerrainFile {
   bool is_named = true;
   /// The name of the raster to read, of a file of several. A file of one may have another one, unless it is the city.
   std::optional<std::string> layer = {};
+  bool is_input = false;  ///< it came among the inputs, beside buildings, and not as a terrain
 };
 
 /// The place of a raster of heights, by its own metadata.
@@ -62,6 +63,9 @@ struct TerrainExtent {
 [[nodiscard]] std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::string& fallback_crs,
                                                         const Georeference& georeference, std::optional<Box2d> wanted_city,
                                                         Report& report);
+/// Throws the InputError that such a file does not meet `wanted_city`, and where both lie; `before` begins the message.
+[[noreturn]] void refuse_terrain(const TerrainFile& file, const std::string& before, const std::string& fallback_crs,
+                                 const Georeference& georeference, const Box2d& wanted_city);
 /// The vertical system that the file says; empty where it says none.
 [[nodiscard]] std::string heights_of_terrain(const TerrainFile& file);
 /// Reads the tiles of one terrain, of which some may lie elsewhere. Throws InputError when all do, and as for a single file.

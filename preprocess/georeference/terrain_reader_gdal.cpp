@@ -213,11 +213,20 @@ std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const 
 TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs, const Georeference& georeference,
                            std::optional<Box2d> wanted_city, Report& report) {
   auto terrain = find_terrain(file, fallback_crs, georeference, wanted_city, report);
-  if (!terrain)
-    throw InputError(
-        file.path.string() +
-        ": does not cover the city: check its CRS, which was taken to be that of --crs or the output if it says none");
+  if (!terrain) refuse_terrain(file, "", fallback_crs, georeference, *wanted_city);
   return std::move(*terrain);
+}
+
+void refuse_terrain(const TerrainFile& file, const std::string& before, const std::string& fallback_crs,
+                    const Georeference& georeference, const Box2d& wanted_city) {
+  const GdalErrors quiet;
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  Report told_before;
+  const PlacedRaster raster = make_ready(file, fallback_crs, *output, HeightsOf::ground, told_before).raster;
+  refuse_elsewhere(
+      before + file.path.string() + (file.is_input ? ", a raster that is taken for the terrain of the buildings," : ""), raster,
+      *output, {wanted_city.low + georeference.origin_m, wanted_city.high + georeference.origin_m});
 }
 
 }  // namespace farlod::georeference

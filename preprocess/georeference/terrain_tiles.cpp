@@ -129,8 +129,9 @@ TerrainRaster read_tiles(std::span<const TerrainFile> files, const std::string& 
     if (georeference.heights_wkt.empty()) georeference.heights_wkt = heights_of_terrain(file);
   }
   if (tiles.empty())
-    throw InputError("none of the " + std::to_string(files.size()) + " files of --terrain covers the city, " +
-                     files.front().path.string() + " being the first: check their CRS");
+    refuse_terrain(files.front(),
+                   "none of the " + std::to_string(files.size()) + " files of --terrain meets the city: the first, ",
+                   fallback_crs, georeference, *wanted_city);
   compare_tiles(tiles, files_here, georeference, report);
   return merged(tiles);
 }

@@ -83,6 +83,10 @@ class CityReading {
       : files_(std::move(files)), settings_(settings), report_(report), stop_(stop), run_stage_(run_stage) {
     read_.far_map = settings.far_map;
     read_.skipped = std::move(files_.skipped);
+    for (const georeference::TerrainFile& raster : files_.terrain.files)
+      if (raster.is_input)
+        read_.notes.push_back(raster.path.string() +
+                              " is a raster beside buildings, and is taken for the terrain that they stand on, as --terrain is");
   }
 
   ReadCity run() {
@@ -148,8 +152,8 @@ class CityReading {
     std::move(read_.located.notes.begin(), read_.located.notes.end(), std::back_inserter(read_.notes));
     const LocatedCity& located = read_.located;
     if (located.city.buildings().empty())
-      georeference::report_surface(located.sources.front(), plausibility::shape_of(located.relief_points),
-                                   located.georeference, report_);
+      georeference::report_surface(located.sources.front(), plausibility::shape_of(located.relief_points), located.georeference,
+                                   report_);
   }
 
   /// Its points are read like those of a relief.
@@ -318,6 +322,7 @@ CityFiles find_city_files(const StageSettings& settings, Report& report) {
     const ingest::InputFile& model = found.surface_models.front();
     city.terrain.files.emplace_back(model.path, model.is_named);
     city.terrain.on_disk.push_back(model.on_disk);
+    city.terrain.files.back().is_input = !found.files.empty();
     name_layer();
   }
   for (const ingest::InputFile& file : found.files) city.on_disk.push_back(file.on_disk);

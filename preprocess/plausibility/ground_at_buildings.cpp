@@ -76,10 +76,11 @@ void require_ground_without_roofs(const LocatedCity& located, const SurveyedGrou
     if (const auto found_m = bump_m(box, ground.height_at)) bumps_m.push_back(*found_m);
   });
   if (bumps_m.size() < fewest || at_share(bumps_m, share) < least_bump_m) return;
-  throw InputError("--terrain has roofs in it, as a surface model (DSM) does: nearly all of the " +
-                   std::to_string(bumps_m.size()) + " buildings stand on a bump of their own size, of typically " +
-                   tenths_of_metres(at_share(bumps_m, 0.5)) +
-                   ". Give a terrain without buildings (DTM), or pack the surface model alone.");
+  throw InputError(
+      "the terrain (--terrain, or the raster among the inputs) has roofs in it, as a surface model (DSM) does: nearly all of "
+      "the " +
+      std::to_string(bumps_m.size()) + " buildings stand on a bump of their own size, of typically " +
+      tenths_of_metres(at_share(bumps_m, 0.5)) + ". Give a terrain without buildings (DTM), or pack the surface model alone.");
 }
 
 void report_roofs(const LocatedCity& located, const SurveyedGround& ground, Report& report) {

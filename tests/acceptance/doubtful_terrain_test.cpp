@@ -40,7 +40,7 @@ TEST_F(DoubtfulTerrain, ASurfaceModelIsNone) {
   folder.write("ground.asc", ascii_grid(climbing_m, 2.0, 300.0));
   folder.write("surface.asc", ascii_grid(climbing_surface_m, 2.0, 300.0));
   folder.must("farlod-pack town.geojson -o a.farlod --terrain ground.asc --strict");
-  EXPECT_THAT(refusal("--force --terrain surface.asc"), HasSubstr("--terrain has roofs in it, as a surface model (DSM) does"));
+  EXPECT_THAT(refusal("--force --terrain surface.asc"), HasSubstr("has roofs in it, as a surface model (DSM) does"));
 }
 
 TEST_F(DoubtfulTerrain, OneTileOfAnotherDatumIsToldOrRefused) {
@@ -75,6 +75,21 @@ TEST_F(DoubtfulTerrain, ASurfaceModelIsNoCanopy) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("Doubtful (212 another_datum): surface.asc: "));
   EXPECT_THAT(outcome.out, HasSubstr("are they elevations (--canopy-absolute), or is it a surface model"));
+}
+
+/// It was a terrain without a word, and refused by a message about --crs.
+TEST_F(DoubtfulTerrain, ARasterAmongTheInputsIsToldToBeOne) {
+  folder.write("ground.asc", ascii_grid(climbing_m, 2.0, 300.0));
+  const Outcome outcome = folder.run("farlod-pack town.geojson ground.asc -o a.farlod");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ground.asc is a raster beside buildings, and is taken for the terrain"));
+  folder.write("far.asc", "ncols 2\nnrows 2\nxllcorner 650000\nyllcorner 5600000\ncellsize 1000\n1 2\n3 4\n");
+  const Outcome far = folder.run("farlod-pack town.geojson far.asc -o b.farlod");
+  EXPECT_EQ(far.exit_code, 3);
+  EXPECT_THAT(far.err,
+              HasSubstr("far.asc, a raster that is taken for the terrain of the buildings, does not meet the city: it lies "
+                        "from 650000, 5600000 to 652000, 5602000 in "));
+  EXPECT_THAT(far.err, HasSubstr("(that of the city, since the file names none); the city with its cells lies from 4"));
 }
 
 TEST_F(DoubtfulTerrain, APictureIsNone) {

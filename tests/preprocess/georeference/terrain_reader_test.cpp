@@ -195,7 +195,11 @@ TEST_F(TerrainReader, SaysWhatIsWrong) {
   };
   EXPECT_THAT(message("absent.tif"), HasSubstr("absent.tif"));
   EXPECT_THAT(message("not.tif"), HasSubstr("is not a raster"));
-  EXPECT_THAT(message("far.tif"), HasSubstr("does not cover the city"));
+  // It blamed --crs, and did not tell where the two lie
+  EXPECT_THAT(
+      message("far.tif"),
+      AllOf(HasSubstr("far.tif does not meet the city: it lies from 500000, 5599950 to 500050, 5600000 in ETRS89 / UTM zone "
+                      "32N (its own CRS); the city with its cells lies from 500, 1500 to 500, 1500 in")));
   EXPECT_THROW((void)georeference_of_terrain(small_grid(), {}), InputError) << "no CRS anywhere";
 }
 
@@ -373,8 +377,8 @@ TEST_F(TerrainReader, OfALargeRasterSomeBlocksAreSampled) {
             CE_None);
   CPLStringList blocks(CSLTokenizeString2("TILED=YES BLOCKXSIZE=16 BLOCKYSIZE=16", " ", 0), TRUE);
   GDALClose(small->GetDriver()->CreateCopy(file("large.tif").c_str(), small.get(), 0, blocks.List(), nullptr, nullptr));
-  (void)read_terrain(file("large.tif"), "", georeference_of_terrain(file("large.tif"), {}), Box2d{{-5.0, -5.0}, {5.0, 5.0}},
-                     report);
+  (void)read_terrain(file("large.tif"), "", georeference_of_terrain(file("large.tif"), {}),
+                     Box2d{{-5.0, -5.0}, {5.0, 5.0}}, report);
   EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 0 is no height here")));
 }
 

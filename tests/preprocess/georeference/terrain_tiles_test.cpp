@@ -16,6 +16,7 @@
 namespace farlod::georeference {
 namespace {
 
+using testing::AllOf;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -74,7 +75,8 @@ TEST_F(TerrainTiles, MayLieElsewhereButNotAll) {
   EXPECT_THAT(scenes::refusal_of<InputError>([&] {
                 (void)read({there, there}, wanted);
               }),
-              HasSubstr("none of the 2 files of --terrain covers the city"));
+              AllOf(HasSubstr("none of the 2 files of --terrain meets the city: the first, "),
+                    HasSubstr("there.asc does not meet the city: it lies from 1000, 0 to 1020, 20 in ETRS89 / UTM zone 32N")));
 }
 
 /// Nine rows of the same two numbers.
