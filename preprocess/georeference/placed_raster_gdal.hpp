@@ -57,9 +57,10 @@ struct PlacedRaster {
   std::shared_ptr<GDALDataset> file, cleared = {};  ///< `cleared` has no data where the file does not declare it
   std::shared_ptr<GDALDataset> warped = {};         ///< empty when the pixels stay where they are
   HeightScale scale = {};
-  std::string note = {};         ///< what was done to it, for the user
-  std::optional<Crs> own = {};   ///< the CRS of the file, once it is taken
-  std::string whose_crs = {};    ///< from where it has that, for messages
+  std::string note = {};                         ///< what was done to it, for the user
+  std::optional<std::string> crs_in_place = {};  ///< of that of the file
+  std::optional<Crs> own = {};                   ///< the CRS of the file, once it is taken
+  std::string whose_crs = {};                    ///< from where it has that, for messages
 
   [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : unwarped(); }
   [[nodiscard]] GDALDataset& unwarped() const { return cleared ? *cleared : *file; }

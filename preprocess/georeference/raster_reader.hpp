@@ -25,23 +25,32 @@ struct TerrainFile {
   bool is_named = true;
   /// The name of the raster to read, of a file of several. A file of one may have another one, unless it is the city.
   std::optional<std::string> layer = {};
-  bool is_input = false;  ///< it came among the inputs, beside buildings, and not as a terrain
+  std::optional<std::string> crs = {};  ///< that holds in place of its own
+  bool is_input = false;                ///< it came among the inputs, beside buildings, and not as a terrain
 };
 
 /// The place of a raster of heights, by its own metadata.
 struct TerrainExtent {
   std::string crs_wkt;  ///< empty when the file has no CRS
   Box2d box;            ///< easting or longitude in x, over whole pixels
+  double pixel = 0.0;   ///< the width of a pixel
 };
 
 /// Throws InputError when the file is not a raster, or has no place on the map.
 [[nodiscard]] TerrainExtent read_terrain_extent(const TerrainFile& file);
 
+/// For rasters that are the city: where --crs overrules what they say themselves, by the rules of crs_of_inputs, it is theirs
+/// from here on. Reports two_crs, crs_unknown and unlikely_place as for a city file.
+void take_crs_of_inputs(std::span<TerrainFile> files, const GeoreferenceSettings& settings, Report& report);
+
 /// The frame of a city that consists of a terrain or surface model alone. The CRS is chosen by the same rules as for buildings;
-/// that of the first file counts, and so does the place of those in the same CRS.
-[[nodiscard]] Georeference georeference_of_terrain(std::span<const TerrainFile> files, const GeoreferenceSettings& settings);
-[[nodiscard]] inline Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings) {
-  return georeference_of_terrain(std::span(&file, 1), settings);
+/// that of the first file counts, and so does the place of those in the same CRS. An output CRS that is not meant for that is
+/// reported (unlikely_place).
+[[nodiscard]] Georeference georeference_of_terrain(std::span<const TerrainFile> files, const GeoreferenceSettings& settings,
+                                                   Report& report);
+[[nodiscard]] inline Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings,
+                                                          Report& report) {
+  return georeference_of_terrain(std::span(&file, 1), settings, report);
 }
 
 /// Reads the heights of the ground from band 1 of any raster that GDAL reads.

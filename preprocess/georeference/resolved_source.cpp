@@ -293,6 +293,20 @@ void report_place(const std::string& raster, const Crs& crs, Point2d middle, Poi
   of_file.add(ProblemCode::implausible_size, std::move(text).str());
 }
 
+bool is_overruled(const std::string& raster, const InputCrs& given, Point2d middle, double pixel, Report& report) {
+  const TypicalPlace typical{{middle.x, middle.y, 0.0}, std::nullopt, pixel};
+  const InputCrs input = resolved_crs(given, typical);
+  FileReport of_file(raster, typical, report);
+  if (input.problem) of_file.add(*input.problem, input.detail);
+  if (!input.own) return false;
+  // What is far outside of the area of --crs is told when the raster is read
+  const Crs& crs = input.named.crs;
+  const auto doubt =
+      doubt_about_place(crs, middle, std::nullopt) ? std::nullopt : doubt_beside_own(crs, middle, input.own->named.crs, middle);
+  if (doubt) of_file.add(ProblemCode::unlikely_place, *doubt);
+  return true;
+}
+
 void report_whole_file(ProblemCode code, const std::string& file, std::string detail, const Point3d& p_city,
                        const Georeference& georeference, Report& report) {
   const Point2d& origin_m = georeference.origin_m;

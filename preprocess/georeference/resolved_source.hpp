@@ -89,6 +89,10 @@ struct ResolvedSource {
 /// smaller than a centimetre or wider than 10 km. Throws InputError as `resolve` does.
 void report_place(const std::string& raster, const Crs& crs, Point2d middle, Point2d beside, Report& report);
 
+/// Whether --crs holds in place of the CRS of a raster that is the city. Reports as `resolve` does: two_crs, crs_unknown, and
+/// unlikely_place where --crs was given for another purpose.
+[[nodiscard]] bool is_overruled(const std::string& raster, const InputCrs& given, Point2d middle, double pixel, Report& report);
+
 /// Reports what concerns a whole file, with a place of the city frame.
 void report_whole_file(ProblemCode code, const std::string& file, std::string detail, const Point3d& p_city,
                        const Georeference& georeference, Report& report);

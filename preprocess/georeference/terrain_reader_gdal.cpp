@@ -101,6 +101,7 @@ struct ReadyRaster {
 ReadyRaster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output, HeightsOf of,
                        Report& report) {
   PlacedRaster raster{file.path, open_raster(file)};
+  raster.crs_in_place = file.crs;
   const Crs crs = raster.take_crs(fallback_crs, output);
   const PixelFrame frame = raster.frame();
   const Point2d middle{0.5 * raster.columns(), 0.5 * raster.rows()};
@@ -146,14 +147,14 @@ std::vector<Point3d> centres_of_row(const PlacedRaster& raster, const PixelFrame
 TerrainExtent extent_of(const TerrainFile& file, bool is_city) {
   const GdalErrors quiet;
   const PlacedRaster raster{file.path, open_raster(file, is_city)};
-  return {wkt_of(raster.file->GetSpatialRef()), raster.extent()};
+  return {file.crs.value_or(wkt_of(raster.file->GetSpatialRef())), raster.extent(), norm(raster.frame().column_step)};
 }
 
 }  // namespace
 
 TerrainExtent read_terrain_extent(const TerrainFile& file) { return extent_of(file, false); }
 
-Georeference georeference_of_terrain(std::span<const TerrainFile> files, const GeoreferenceSettings& settings) {
+Georeference georeference_of_terrain(std::span<const TerrainFile> files, const GeoreferenceSettings& settings, Report& report) {
   const std::string name = files.front().path.string();
   TerrainExtent extent = extent_of(files.front(), files.size() == 1);
   for (const TerrainFile& file : files.subspan(1))
@@ -162,6 +163,7 @@ Georeference georeference_of_terrain(std::span<const TerrainFile> files, const G
   const Crs input = crs_of_input(name, extent.crs_wkt, settings.crs).crs;
   const Point2d centre = 0.5 * (extent.box.low + extent.box.high);
   const Crs output = choose_output_crs(input, centre, settings.out_crs);
+  if (!settings.out_crs.empty()) report_output(input, output, centre, report);
   const auto place = input.equals(output) ? centre : CrsTransformation(input, output, centre).apply(centre);
   if (!place) throw InputError(name + ": its centre has no place in " + output.name() + ": check its CRS");
   return georeference_around(*place, output);
@@ -192,6 +194,7 @@ std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const 
   const auto output = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(output.has_value());
   PlacedRaster raster{file.path, open_raster(file, true)};
+  raster.crs_in_place = file.crs;
   const Crs own = raster.take_crs(fallback_crs, *output);
   const PixelFrame frame = raster.frame();
   if (own.equals(*output) && frame.is_north_up()) return std::nullopt;

@@ -99,6 +99,23 @@ void compare_tiles(std::vector<TerrainRaster>& tiles, const std::vector<TerrainF
 
 }  // namespace
 
+void take_crs_of_inputs(std::span<TerrainFile> files, const GeoreferenceSettings& settings, Report& report) {
+  if (settings.crs.empty()) return;
+  std::vector<SourceCity> sources;
+  std::vector<TerrainExtent> extents;
+  for (const TerrainFile& file : files) {
+    extents.push_back(read_terrain_extent(file));
+    SourceCity& source = sources.emplace_back();
+    source.source = file.path.string();
+    source.crs = {.definition = extents.back().crs_wkt, .longitude_first = true};
+  }
+  const std::vector<InputCrs> inputs = crs_of_inputs(sources, settings);
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    const Point2d middle = 0.5 * (extents[n].box.low + extents[n].box.high);
+    if (is_overruled(sources[n].source, inputs[n], middle, extents[n].pixel, report)) files[n].crs = settings.crs;
+  }
+}
+
 std::string heights_of_terrain(const TerrainFile& file) {
   const auto own = find_crs(read_terrain_extent(file).crs_wkt);
   return own && own->crs.heights_name() ? own->crs.whole_wkt() : "";

@@ -141,7 +141,8 @@ class CityReading {
   void locate(std::vector<SourceCity> sources) {
     georeference::GeoreferenceSettings settings = settings_.georeference;
     if (sources.empty()) {
-      read_.located = {{}, georeference::georeference_of_terrain(files_.terrain.files, settings)};
+      georeference::take_crs_of_inputs(files_.terrain.files, settings, report_);
+      read_.located = {{}, georeference::georeference_of_terrain(files_.terrain.files, settings, report_)};
       take_turned_surface();
       return;
     }

@@ -135,7 +135,7 @@ TEST_F(TerrainReader, CountsHeightsInTheFeetOfTheCrs) {
   auto dataset = make_raster(path, {"EPSG:2263", {1025000.0, 10.0, 0.0, 172918.0, 0.0, -10.0}, 20, 20});
   fill(*dataset, [](int, int) { return 100.0; });
   dataset.reset();
-  const Georeference frame = georeference_of_terrain(path, {});
+  const Georeference frame = georeference_of_terrain(path, {}, report);
   EXPECT_EQ(frame.epsg, 32118);
   const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt, report);
   const auto height_m = terrain.height_at({0.0, 0.0});
@@ -154,7 +154,7 @@ TEST_F(TerrainReader, ResamplesFromDegrees) {
   fill(*dataset, [](int column, int row) { return 100.0 + 0.1 * column - 0.05 * row; });
   dataset->GetRasterBand(1)->SetNoDataValue(-1.0);
   dataset.reset();
-  const Georeference frame = georeference_of_terrain(path, {});
+  const Georeference frame = georeference_of_terrain(path, {}, report);
   EXPECT_EQ(frame.epsg, 32632);
   const TerrainRaster terrain = read_terrain(path, "", frame, below_a_city, report);
   const Crs utm = *Crs::find("EPSG:32632");
@@ -176,7 +176,7 @@ TEST_F(TerrainReader, ResamplesATurnedRaster) {
   auto dataset = make_raster(path, {"EPSG:25832", {500000.0, 8.0, 6.0, 5600000.0, 6.0, -8.0}, 60, 60});
   fill(*dataset, [](int column, int) { return 1.0 * column; });
   dataset.reset();
-  const Georeference frame = georeference_of_terrain(path, {});
+  const Georeference frame = georeference_of_terrain(path, {}, report);
   const TerrainRaster terrain = read_terrain(path, "", frame, below_a_city, report);
   const auto height_m = terrain.height_at({0.0, 0.0});
   ASSERT_TRUE(height_m.has_value());
@@ -200,13 +200,13 @@ TEST_F(TerrainReader, SaysWhatIsWrong) {
       message("far.tif"),
       AllOf(HasSubstr("far.tif does not meet the city: it lies from 500000, 5599950 to 500050, 5600000 in ETRS89 / UTM zone "
                       "32N (its own CRS); the city with its cells lies from 500, 1500 to 500, 1500 in")));
-  EXPECT_THROW((void)georeference_of_terrain(small_grid(), {}), InputError) << "no CRS anywhere";
+  EXPECT_THROW((void)georeference_of_terrain(small_grid(), {}, report), InputError) << "no CRS anywhere";
 }
 
 TEST_F(TerrainReader, ReadsTheSurfaceModelOfGothenburg) {
   const std::filesystem::path path = scenes::test_data("goteborg/dsm.asc");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << scenes::absence_of(path);
-  const Georeference frame = georeference_of_terrain(path, {"EPSG:3007", ""});
+  const Georeference frame = georeference_of_terrain(path, {"EPSG:3007", ""}, report);
   EXPECT_EQ(frame.epsg, 3007);
   EXPECT_EQ(frame.origin_m, (Point2d{147740.0 + 95.0, 6398620.0 + 65.0}));
   const TerrainRaster terrain = read_terrain(path, "EPSG:3007", frame, std::nullopt, report);
@@ -333,7 +333,7 @@ TEST_F(TerrainReader, NumbersThatNobodyDeclaredAsNoDataAreEmpty) {
   for (const double number : {-9999.0, -3.4028234663852886e38, 0.0}) {
     report = Report();
     const auto path = with_hole(file("hole.tif"), "EPSG:25832", {690000.0, 10.0, 0.0, 5335000.0, 0.0, -10.0}, number);
-    const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}), std::nullopt, report);
+    const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}, report), std::nullopt, report);
     EXPECT_EQ(std::count(terrain.height_m.begin(), terrain.height_m.end(), std::nullopt), 4) << number;
     EXPECT_EQ(std::count(terrain.height_m.begin(), terrain.height_m.end(), 500.0F), 396) << number;
     EXPECT_THAT(told(report), ElementsAre(AllOf(HasSubstr("211 4 of 400 pixels here: "), HasSubstr("gdal_edit.py -a_nodata"))));
@@ -342,7 +342,7 @@ TEST_F(TerrainReader, NumbersThatNobodyDeclaredAsNoDataAreEmpty) {
 
 TEST_F(TerrainReader, TheyAreNotMixedIntoTheirNeighborsWhereARasterIsResampled) {
   const auto path = with_hole(file("hole.tif"), "EPSG:4326", {11.55, 1e-4, 0.0, 48.14, 0.0, -1e-4}, -9999.0);
-  const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}), std::nullopt, report);
+  const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}, report), std::nullopt, report);
   EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 -9999 is no height here")));
   for (const auto& height_m : terrain.height_m)
     if (height_m) {
@@ -360,7 +360,7 @@ TEST_F(TerrainReader, SeveralOfThemInOneRasterAreNotMixedEither) {
   });
   dataset->FlushCache();
   const TerrainRaster terrain =
-      read_terrain(file("holes.tif"), "", georeference_of_terrain(file("holes.tif"), {}), std::nullopt, report);
+      read_terrain(file("holes.tif"), "", georeference_of_terrain(file("holes.tif"), {}, report), std::nullopt, report);
   EXPECT_THAT(told(report),
               UnorderedElementsAre(HasSubstr("211 -32768 is no height here"), HasSubstr("211 0 is no height here")));
   for (const auto& height_m : terrain.height_m)
@@ -377,7 +377,7 @@ TEST_F(TerrainReader, OfALargeRasterSomeBlocksAreSampled) {
             CE_None);
   CPLStringList blocks(CSLTokenizeString2("TILED=YES BLOCKXSIZE=16 BLOCKYSIZE=16", " ", 0), TRUE);
   GDALClose(small->GetDriver()->CreateCopy(file("large.tif").c_str(), small.get(), 0, blocks.List(), nullptr, nullptr));
-  (void)read_terrain(file("large.tif"), "", georeference_of_terrain(file("large.tif"), {}),
+  (void)read_terrain(file("large.tif"), "", georeference_of_terrain(file("large.tif"), {}, report),
                      Box2d{{-5.0, -5.0}, {5.0, 5.0}}, report);
   EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 0 is no height here")));
 }

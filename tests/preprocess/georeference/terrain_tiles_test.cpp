@@ -122,6 +122,70 @@ TEST_F(TallTiles, OfNothingButZerosAreNoGround) {
 }
 
 /// Pixels of 2 m, turned by the angle of a triangle 3 : 4 : 5. A wall of 10 m stands between the first two columns and the rest.
+/// A raster of 1 km near Munich that says its CRS is UTM 32N.
+class RasterOfMunich : public TerrainTiles {
+ protected:
+  void SetUp() override {
+    TerrainTiles::SetUp();
+    (void)tile("munich.asc", 0.0, 1000.0, "500 510\n520 530\n");
+    std::ofstream(folder.file("munich.vrt"))
+        << R"(<VRTDataset rasterXSize="2" rasterYSize="2"><SRS>EPSG:25832</SRS>)"
+        << R"(<GeoTransform>690000, 1000, 0, 5336000, 0, -1000</GeoTransform>)"
+        << R"(<VRTRasterBand dataType="Float32" band="1"><SimpleSource><SourceFilename relativeToVRT="1">munich.asc)"
+        << "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+    files = {folder.file("munich.vrt")};
+  }
+  /// The code of the city's CRS, with these settings.
+  int code_with(const GeoreferenceSettings& settings) {
+    take_crs_of_inputs(files, settings, report);
+    const Georeference frame = georeference_of_terrain(files, settings, report);
+    (void)read_terrain(std::span<const TerrainFile>(files), settings.crs, frame, std::nullopt, report);
+    return frame.epsg.value_or(0);
+  }
+  [[nodiscard]] std::vector<ProblemCode> codes() const {
+    std::vector<ProblemCode> found;
+    for (const Problem& problem : report.problems()) found.push_back(problem.code);
+    return found;
+  }
+  std::vector<TerrainFile> files;
+};
+
+/// --crs was ignored without a word.
+TEST_F(RasterOfMunich, HasTheCrsOfTheOptionAsFootprintsHave) {
+  EXPECT_EQ(code_with({"EPSG:25833", ""}), 25833);
+  EXPECT_THAT(codes(), ElementsAre(ProblemCode::two_crs));
+  EXPECT_THAT(report.problems()[0].detail, AllOf(HasSubstr("the file says EPSG:25832"), HasSubstr("--crs says EPSG:25833")));
+}
+
+TEST_F(RasterOfMunich, IsDoubtedWhereTheCrsIsNotMeantForIt) {
+  (void)code_with({"EPSG:25835", ""});
+  EXPECT_THAT(codes(), ElementsAre(ProblemCode::two_crs, ProblemCode::unlikely_place)) << "its area ends north of Munich";
+  EXPECT_THAT(report.problems()[1].detail, HasSubstr("ETRS89 / UTM zone 35N is not meant to be used"));
+}
+
+TEST_F(RasterOfMunich, IsDoubtedFarFromTheCountryOfTheCrs) {
+  (void)code_with({"EPSG:28992", ""});
+  EXPECT_THAT(codes(), ElementsAre(ProblemCode::two_crs, ProblemCode::unlikely_place));
+  EXPECT_THAT(report.problems()[1].detail, HasSubstr("Amersfoort / RD New (Netherlands) is not meant to be used"));
+}
+
+TEST_F(RasterOfMunich, KeepsItsOwnCrsWhereTheOptionIsForDegrees) {
+  EXPECT_EQ(code_with({"EPSG:4326", ""}), 25832);
+  EXPECT_THAT(codes(), ElementsAre(ProblemCode::two_crs));
+  EXPECT_THAT(report.problems()[0].detail, HasSubstr("which is used"));
+}
+
+TEST_F(RasterOfMunich, IsDoubtedInAnOutputCrsOfElsewhere) {
+  EXPECT_EQ(code_with({"", "EPSG:2056"}), 2056);
+  EXPECT_THAT(codes(), ElementsAre(ProblemCode::unlikely_place));
+}
+
+TEST_F(RasterOfMunich, TellsNothingOfItsOwnCrs) {
+  EXPECT_EQ(code_with({"EPSG:25832", ""}), 25832);
+  EXPECT_EQ(code_with({"", ""}), 25832);
+  EXPECT_THAT(codes(), ElementsAre());
+}
+
 class TurnedSurfaces : public TerrainTiles {
  protected:
   [[nodiscard]] TerrainFile model() const {
@@ -137,7 +201,7 @@ class TurnedSurfaces : public TerrainTiles {
 };
 
 TEST_F(TurnedSurfaces, KeepsItsWallsUpright) {
-  const Georeference frame = georeference_of_terrain(model(), {});
+  const Georeference frame = georeference_of_terrain(model(), {}, report);
   const TerrainRaster terrain = read_terrain(model(), "", frame, std::nullopt, report);
   EXPECT_TRUE(std::all_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height_m) {
     return !height_m || *height_m == 0.0F || *height_m == 10.0F;
@@ -148,7 +212,7 @@ TEST_F(TurnedSurfaces, KeepsItsWallsUpright) {
 }
 
 TEST_F(TurnedSurfaces, AloneKeepsItsPixelsWhereTheyAre) {
-  const Georeference frame = georeference_of_terrain(model(), {});
+  const Georeference frame = georeference_of_terrain(model(), {}, report);
   const auto surface = read_turned_surface(model(), "", frame, report);
   ASSERT_TRUE(surface.has_value());
   ASSERT_EQ(surface->points_city.size(), 8U);
@@ -164,7 +228,7 @@ TEST_F(TurnedSurfaces, AloneKeepsItsPixelsWhereTheyAre) {
 }
 
 TEST_F(TurnedSurfaces, BelowACityIsSmooth) {
-  const Georeference frame = georeference_of_terrain(model(), {});
+  const Georeference frame = georeference_of_terrain(model(), {}, report);
   const TerrainRaster terrain = read_terrain(model(), "", frame, Box2d{{-3.0, -3.0}, {3.0, 3.0}}, report);
   EXPECT_TRUE(std::any_of(terrain.height_m.begin(), terrain.height_m.end(),
                           [](const auto& height_m) { return height_m && *height_m > 1.0F && *height_m < 9.0F; }));
