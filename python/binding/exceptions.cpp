@@ -13,13 +13,18 @@ namespace py = pybind11;
 namespace farlod {
 namespace {
 
+/// The library's advice names options of the programs.
+py::object in_words_of_python(const Error& error) {
+  return py::module_::import("farlod._program_words").attr("words_of_python")(error.what());
+}
+
 void raise(const char* class_name, const Error& error) {
-  PyErr_SetString(py::module_::import("farlod.errors").attr(class_name).ptr(), error.what());
+  PyErr_SetObject(py::module_::import("farlod.errors").attr(class_name).ptr(), in_words_of_python(error).ptr());
 }
 
 void raise(const InvalidPoint& error) {
   const py::object type = py::module_::import("farlod.errors").attr("InvalidPoint");
-  const py::object raised = type(error.what(), error.index());
+  const py::object raised = type(in_words_of_python(error), error.index());
   PyErr_SetObject(type.ptr(), raised.ptr());
 }
 

@@ -159,6 +159,33 @@ def test_packing_is_told_in_words_of_python(tmp_path: Path, city: str, keywords:
     assert "--" not in str(raised.value)
 
 
+def test_what_another_packing_gives_is_told_in_words_of_python(tmp_path: Path) -> None:
+    whole = farlod.pack(SAMPLES / "village.gml", tmp_path / "w.farlod", cell=50.0, assign="whole", report=False)
+    box = farlod.pack(SAMPLES / "village.gml", tmp_path / "b.farlod", cell=50.0, far_map="box", report=False)
+    west, south, east, north = box.bounds
+    middle = [[(west + east) / 2, (south + north) / 2]]
+    [[x, y]] = middle
+    area = (x - 1.0, y - 1.0, x + 1.0, y + 1.0)
+    part = farlod.pack(SAMPLES / "village.gml", tmp_path / "a.farlod", cell=50.0, area=area, report=False)
+    calls: list[tuple[Any, str]] = [
+        (lambda: whole.cells(), 'assign="clip"'),
+        (lambda: box.svf(middle, bounds=True), '(farlod.pack with far_map="horizon")'),
+        (lambda: part.svf_grid(20.0, engine="horizon"), "(farlod.pack with area)"),
+    ]
+    for call, text in calls:
+        with pytest.raises(farlod.Error) as raised:
+            call()
+        assert text in str(raised.value)
+        assert "--" not in str(raised.value)
+
+
+def test_notes_of_a_report_name_arguments(tmp_path: Path) -> None:
+    frame = geopandas.GeoDataFrame({"h": [9.5]}, geometry=[shapely.geometry.box(550000, 5500000, 550010, 5500012)], crs="EPSG:32632")
+    city = farlod.pack(frame, tmp_path / "p.farlod", heights="h", surface="tin")
+    assert any("surface is for a raster" in note for note in city.report.facts["notes"])
+    assert not any("--" in note for note in city.report.facts["notes"])
+
+
 #: What is no package, and what the message says of it.
 def test_what_is_no_package(tmp_path: Path) -> None:
     (tmp_path / "cities").mkdir()

@@ -391,5 +391,6 @@ def pack(
     opened = City(path)
     opened._features_crs = next((model.geometry.crs for model in models if is_geo(model)), None)
     if report:
-        opened._report = Report(found, facts)
+        notes = [in_python(note, folder) for note in facts["notes"]]
+        opened._report = Report(found, {**facts, "notes": notes})
     return opened

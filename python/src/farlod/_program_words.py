@@ -30,6 +30,9 @@ _SAME_NAMES = (
     "surface terrain terrain-offset threads trees up"
 ).split()
 
+#: Words that an argument is set to.
+_WORDS = "clip|whole|horizon|box|tin"
+
 #: What a file of this ending holds, where it was written of what a caller gave.
 _GIVEN = {"gpkg": "the GeoDataFrame", "tif": "the DataArray", "obj": "the mesh"}
 
@@ -46,15 +49,22 @@ def _with_what_was_given(message: str, folder: str) -> str:
     return re.sub(re.escape(folder) + file, given, message)
 
 
-def in_python(message: str, folder: str) -> str:
-    """``message`` with the arguments of farlod.pack() in place of the options of farlod-pack, and of files in ``folder``."""
+def words_of_python(message: str) -> str:
+    """``message`` with the arguments of farlod.pack() in place of the options of farlod-pack."""
     names = {**{name: name.replace("-", "_") for name in _SAME_NAMES}, **_ARGUMENTS}
 
     def argument(match: re.Match[str]) -> str:
         name = names.get(match["option"])
         if name is None:
             return match[0]
-        return f'{name}="{match["epsg"]}"' if match["epsg"] else name
+        value = match["epsg"] or match["word"]
+        return ("farlod.pack with " if match["program"] else "") + (f'{name}="{value}"' if value else name)
 
-    text = _with_what_was_given(message, folder).replace("--force", "overwrite=True").replace(" for -o", " for path")
-    return re.sub(r"(?<![\w-])--(?P<option>[a-z]+(?:-[a-z]+)*)(?: (?P<epsg>EPSG:\w+))?", argument, text)
+    text = message.replace("--force", "overwrite=True").replace(" for -o", " for path")
+    option = r"(?P<program>farlod-pack )?(?<![\w-])--(?P<option>[a-z]+(?:-[a-z]+)*)"
+    return re.sub(option + rf"(?: (?P<epsg>EPSG:\w+)|(?: (?P<word>{_WORDS})\b))?", argument, text)
+
+
+def in_python(message: str, folder: str) -> str:
+    """The same, and with what a caller gave in place of files in ``folder``."""
+    return words_of_python(_with_what_was_given(message, folder))
