@@ -104,6 +104,15 @@ struct Quantities {
   /// Parts of the turn by which walls are told apart in all of these: 4, or 8 with `view_wall_ne` between `view_wall_n` and
   /// `view_wall_e`, and so on. Each is centred at its true azimuth.
   std::size_t wall_sectors = 4;
+  /// The id of a building that receivers look for, as tables of surfaces name it; all count that share it. Column
+  /// `view_building`: the share of the view that it fills, of all directions before the receiver's front, weighted as svf is;
+  /// what lies below the horizontal of a receiver that looks straight up is not before its front. Column `sees_building`: 1 where
+  /// anything of it is seen, and else 0; in any direction of a receiver that looks straight up, before the front of others and of
+  /// all on surfaces. What hides it is the whole city to the last tile, far or near, with its crowns, as if nothing passed them,
+  /// whatever the engine: far maps do not tell buildings apart. Takes `rays` rays of its own, all towards the building, of which
+  /// the share is an average, so that as much of one that is far away is known; what fills less than a ray of the building's box
+  /// may be missed.
+  std::optional<std::string> seen_building = {};
   /// What crowns of trees do to the sky, by the rule of `canopy`; a package without trees has none. `svf`, horizons and all else
   /// stay those of buildings and ground.
   ///
@@ -138,7 +147,7 @@ struct Quantities {
   /// Those that crowns dim, where a package has some.
   [[nodiscard]] bool any_dimmed_by_crowns() const { return any_of_light() || sky_component || sunlit_total; }
   /// Those that are seen by rays against the whole city, crowns included.
-  [[nodiscard]] bool any_seen_by_rays() const { return shadow_patches || any_of_views(); }
+  [[nodiscard]] bool any_seen_by_rays() const { return shadow_patches || seen_building || any_of_views(); }
   /// Those that say what fills the view.
   [[nodiscard]] bool any_of_views() const { return view_factors || view_factors_below || any_of_places(); }
   /// Those that are of a place, not of a surface: receivers on surfaces have none.

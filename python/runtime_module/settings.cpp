@@ -86,7 +86,8 @@ void add_canopy(py::class_<Quantities>& quantities) {
 void add_numbers_of(py::class_<Quantities>& quantities) {
   quantities.def_readwrite("horizons", &Quantities::horizons)
       .def_readwrite("wall_sectors", &Quantities::wall_sectors)
-      .def_readwrite("eye_field_deg", &Quantities::eye_field_deg);
+      .def_readwrite("eye_field_deg", &Quantities::eye_field_deg)
+      .def_readwrite("seen_building", &Quantities::seen_building);
 }
 
 void add_quantities(py::module_& module) {

@@ -28,7 +28,7 @@ from .staging import Staging
 
 QUANTITIES = ["svf_solid", "directional", "hidden", "horizon", "horizon_distance", "sky_patches", "sunlit", "sunlit_total", "shadow_patches",
               "irradiation", "irradiance", "illuminance", "shade", "sky_component", "view_factors", "view_factors_below",
-              "view_cube", "view_sphere", "view_eye",
+              "view_cube", "view_sphere", "view_eye", "view_building",
               "svf_total", "svfaveg", "directional_vegetation", "shares"]
 QUANTITIES_HELP = (
     "Besides svf. svf_solid: share of the solid angle; directional: svfN, svfE, svfS, svfW as UMEP has them; hidden: shares that "
@@ -37,7 +37,8 @@ QUANTITIES_HELP = (
     "UMEP, as bits; irradiation, in kWh/m², irradiance, in W/m², illuminance, in lx, and shade: those of a period; "
     "sky_component: light of an overcast sky; view_factors: what is seen of sky, ground, roofs, walls by the azimuth that they "
     "face, and crowns; view_factors_below: what of it lies below the horizontal; view_cube: the same of the six faces "
-    "of a cube; view_sphere: of all directions around; view_eye: of a field at eye level, such as the green view; with the trees of a package svf_total (and "
+    "of a cube; view_sphere: of all directions around; view_eye: of a field at eye level, such as the green view; view_building: what one building fills of the "
+    "view, and whether it is seen; with the trees of a package svf_total (and "
     "svfveg), svfaveg, directional_vegetation: both of the halves of the sky as UMEP has them; and the shares of sky, "
     "vegetation and building."
 )
@@ -85,6 +86,8 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         self.add_choice("WALL_SECTORS", "Azimuths of walls", sectors, ["4", "8"], advanced=True)
         eye = "For view_eye: degrees above and below the horizontal. Default: 30."
         self.add_optional_number("EYE_FIELD", "Field of the eye (°)", eye, 1.0, 90.0, advanced=True)
+        sees = QgsProcessingParameterString("SEES", "Building to look for", None, False, True)
+        self.add(sees, "Its id, as tables of surfaces name it. For view_building.")
         sky = "cosine: svf; solid: svf_solid, which weighs all directions alike."
         self.add_choice("SKY", "Weight of the sky", sky, ["cosine", "solid"], advanced=True)
 
@@ -149,10 +152,11 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         arguments += self.number_argument(parameters, "HORIZONS", "--horizons", context)
         if "sky_patches" in quantities:
             arguments += self.choice_argument(parameters, "SKY_PATCHES", "--sky-patches", context)
-        if any(name.startswith("view_") for name in quantities):
+        if any(name.startswith("view_") and name != "view_building" for name in quantities):
             arguments += self.choice_argument(parameters, "WALL_SECTORS", "--wall-sectors", context)
         if "view_eye" in quantities:
             arguments += self.number_argument(parameters, "EYE_FIELD", "--eye-field", context)
+        arguments += self.text_argument(parameters, "SEES", "--sees", context)
         arguments += self.choice_argument(parameters, "SKY", "--sky", context)
         arguments += self.choice_argument(parameters, "ENGINE", "--engine", context)
         arguments += self.flag_argument(parameters, "BOUNDS", "--bounds", context)

@@ -138,6 +138,9 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
 }
 
 void add_view_options(CLI::App& app, RawQuantities& raw) {
+  app.add_option("--sees", raw.sees,
+                 "With view_building: the building that receivers look for, by its id, as the tables of --surfaces name it")
+      ->group("Quantities");
   app.add_option("--wall-sectors", raw.wall_sectors,
                  "With view_factors and its like: tell walls by 4 parts of the turn (default) or 8: north, north-east, ...")
       ->check(one_of_words({"4", "8"}))
@@ -153,6 +156,11 @@ void add_view_options(CLI::App& app, RawQuantities& raw) {
 void resolve_views(const RawQuantities& raw, Quantities& quantities) {
   if (raw.wall_sectors > 0) quantities.wall_sectors = raw.wall_sectors;
   if (raw.eye_field_deg) quantities.eye_field_deg = *raw.eye_field_deg;
+  if (quantities.seen_building && raw.sees.empty())
+    throw CLI::ValidationError("--quantity", "view_building needs a building to look for: give its id with --sees");
+  if (!raw.sees.empty() && !quantities.seen_building)
+    throw CLI::ValidationError("--sees", "it goes with --quantity view_building");
+  if (quantities.seen_building) quantities.seen_building = raw.sees;
   if (raw.wall_sectors > 0 && !quantities.any_of_views())
     throw CLI::ValidationError("--wall-sectors", "it goes with view_factors, view_cube, view_sphere or view_eye (--quantity)");
   if (raw.eye_field_deg && !quantities.view_eye) throw CLI::ValidationError("--eye-field", "it goes with --quantity view_eye");

@@ -33,6 +33,7 @@ struct RawQuantities {
   bool leaf_off = false;
   std::size_t horizons = 0, sky_patches = 0, sun_step_minutes = 0, wall_sectors = 0;
   std::optional<double> eye_field_deg;
+  std::string sees;
 };
 
 /// What they mean. The sun's positions depend on where the package is, and are not among the quantities yet.

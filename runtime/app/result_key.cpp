@@ -93,6 +93,7 @@ void add_quantities(const Quantities& q, AnswerKey& key) {
                      fmt::format("{}", q.sky_patches == SkyPatchSet::reinhart ? reinhart_patches : tregenza_patches));
   if (q.any_of_views() && q.wall_sectors != Quantities().wall_sectors)
     key.emplace_back("--wall-sectors", fmt::format("{}", q.wall_sectors));
+  if (q.seen_building) key.emplace_back("--sees", *q.seen_building);
   if (q.view_eye) key.emplace_back("--eye-field", fmt::format("{:g}", q.eye_field_deg));
 }
 

@@ -142,7 +142,8 @@ ViewRanges view_ranges_of(const Quantities& quantities) {
           .below = range_of(Quantity::view_factors_below, quantities),
           .cube = range_of(Quantity::view_cube, quantities),
           .sphere = range_of(Quantity::view_sphere, quantities),
-          .eye = range_of(Quantity::view_eye, quantities)};
+          .eye = range_of(Quantity::view_eye, quantities),
+          .building = range_of(Quantity::view_building, quantities)};
 }
 
 FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest)
@@ -245,7 +246,8 @@ void FurtherQuantities::add_shadow_patches(const ProfiledPacket&, QuantityColumn
   columns.skip(shadow_patches_.count);
 }
 
-/// Profiles do not tell them: their places are left for store_view_factors, as those of the next, and for store_views_around.
+/// Profiles do not tell them: their places are left for store_view_factors, as those of the next, for ViewsAround, and for
+/// store_building_views.
 void FurtherQuantities::add_views(const ProfiledPacket&, QuantityColumns& columns) const { columns.skip(views_.all.count); }
 void FurtherQuantities::add_views_below(const ProfiledPacket&, QuantityColumns& columns) const {
   columns.skip(views_.below.count);
@@ -258,6 +260,9 @@ void FurtherQuantities::add_views_of_sphere(const ProfiledPacket&, QuantityColum
 }
 void FurtherQuantities::add_views_of_eye(const ProfiledPacket&, QuantityColumns& columns) const {
   columns.skip(views_.eye.count);
+}
+void FurtherQuantities::add_view_of_building(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(views_.building.count);
 }
 
 void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {

@@ -40,7 +40,7 @@ void trace_horizon_distances(const Occluder& city, const Point3f& origin, const 
 
 /// Where a receiver's values have its views, of each of the quantities that say what fills the view.
 struct ViewRanges {
-  ColumnRange all, below, cube, sphere, eye;
+  ColumnRange all, below, cube, sphere, eye, building;
 };
 [[nodiscard]] ViewRanges view_ranges_of(const Quantities& quantities);
 
@@ -96,7 +96,7 @@ class FurtherQuantities {
   /// Whether anything is made of profiles: canopies, shadow patches and views alone may be traced without them.
   [[nodiscard]] bool needs_profiles() const {
     return size_ > crowns_.count + shadow_patches_.count + views_.all.count + views_.below.count + views_.cube.count +
-                       views_.sphere.count + views_.eye.count;
+                       views_.sphere.count + views_.eye.count + views_.building.count;
   }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
   /// Whether something is made of light, which crowns dim.
@@ -139,6 +139,7 @@ class FurtherQuantities {
   void add_views_of_cube(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_views_of_sphere(const ProfiledPacket& packet, QuantityColumns& columns) const;
   void add_views_of_eye(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_view_of_building(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
  private:
   void divide_into_patches();

@@ -33,6 +33,7 @@ enum class Quantity : std::uint8_t {
   view_cube,
   view_sphere,
   view_eye,
+  view_building,
   svf_total,
   svfaveg,
   directional_vegetation,

@@ -26,7 +26,8 @@ struct SkySettings {
   std::size_t azimuths = default_azimuths;  ///< of horizons
   /// With Engine::rays, low and high are those of the same rays, of which the far map leaves some open; else of the true value.
   bool bounds_of_same_rays = false;
-  Quantities further = {};  ///< what is computed beside the sky view factor
+  Quantities further = {};   ///< what is computed beside the sky view factor
+  bool on_surfaces = false;  ///< the city is behind each receiver, also behind one that looks straight up
 };
 
 /// What took more than a horizon.

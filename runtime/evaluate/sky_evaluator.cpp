@@ -8,6 +8,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
+#include "evaluate/building_view.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/sky_method.hpp"
 #include "evaluate/traced_patches.hpp"
@@ -171,6 +172,7 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers
   if (further.horizon_distances) find_horizon_distances(cell, answers);
   if (further.shadow_patches) find_shadow_patches(cell, answers);
   if (further.any_of_views()) find_views(cell, answers);
+  if (further.seen_building) find_building(cell, answers);
 }
 
 void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const {
@@ -209,6 +211,17 @@ void SkyEvaluator::find_views(const CellReceivers& cell, const SkyAnswers& answe
     store_view_factors(cell, scene, e.directions, e.settings.weight, e.further, answers, e.stop);
   if (around_) around_->store(cell, e.further, answers);
   if (further.view_eye) store_views_of_eye(cell, scene, eye_directions_, e.further, answers, e.stop);
+  e.counter->add_times(start, scene_ready);
+}
+
+void SkyEvaluator::find_building(const CellReceivers& cell, const SkyAnswers& answers) const {
+  const auto start = EvaluationCounter::Clock::now();
+  const Evaluation& e = *evaluation_;
+  const SkySettings& s = e.settings;
+  BuildingScene scene{e.city->seen_from(cell.cell), e.city->building(*s.further.seen_building)};
+  if (package().has_crowns()) scene.crowns = &e.city->crowns(s.further.canopy);
+  const auto scene_ready = EvaluationCounter::Clock::now();
+  store_building_views(cell, scene, {s.rays, s.weight, s.on_surfaces}, e.further, answers, e.stop);
   e.counter->add_times(start, scene_ready);
 }
 

@@ -96,6 +96,7 @@ class SkyEvaluator {
   void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_shadow_patches(const CellReceivers& cell, const SkyAnswers& answers) const;
   void find_views(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void find_building(const CellReceivers& cell, const SkyAnswers& answers) const;
 
   std::unique_ptr<const Evaluation> evaluation_;
   std::array<std::unique_ptr<const SkyMethod>, evaluation_method_count> methods_;

@@ -86,4 +86,10 @@ void describe_views_of_eye(const Quantities& quantities, std::vector<ColumnDescr
   describe_view(quantities, "_eye", "the solid angle within " + field + " degrees of the horizontal, at all azimuths", columns);
 }
 
+void describe_view_of_building(const Quantities& quantities, std::vector<ColumnDescription>& columns) {
+  const std::string building = "building " + quantities.seen_building.value_or("");
+  columns.push_back({"view_building", "1", "share of the view, weighted as svf is: " + building});
+  columns.push_back({"sees_building", "1", "1 where anything is seen of " + building + ", else 0"});
+}
+
 }  // namespace farlod

@@ -45,5 +45,6 @@ void describe_views_below(const Quantities& quantities, std::vector<ColumnDescri
 void describe_views_of_cube(const Quantities& quantities, std::vector<ColumnDescription>& columns);
 void describe_views_of_sphere(const Quantities& quantities, std::vector<ColumnDescription>& columns);
 void describe_views_of_eye(const Quantities& quantities, std::vector<ColumnDescription>& columns);
+void describe_view_of_building(const Quantities& quantities, std::vector<ColumnDescription>& columns);
 
 }  // namespace farlod

@@ -95,6 +95,7 @@ class Occluder {
     std::array<std::uint32_t, RayOrigins::lanes> triangles{};
   };
   [[nodiscard]] Hits nearest(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const;
+  [[nodiscard]] Hits nearest(const RayOrigins& origins, const Directions& directions, float begin, std::uint32_t wanted) const;
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray) const;
   /// The nearest among the triangles that `counts` says yes to.
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t triangle)>& counts) const;

@@ -140,6 +140,11 @@ Occluder::Hits Occluder::nearest(const RayOrigins& origins, const Point3f& direc
   return impl_->nearest(origins, sixteen_times(direction), begin, wanted);
 }
 
+Occluder::Hits Occluder::nearest(const RayOrigins& origins, const Directions& directions, float begin,
+                                 std::uint32_t wanted) const {
+  return impl_->nearest(origins, directions, begin, wanted);
+}
+
 std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest(ray, nullptr); }
 
 std::optional<Hit> Occluder::nearest(const Ray& ray, const std::function<bool(std::uint32_t)>& counts) const {

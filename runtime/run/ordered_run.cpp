@@ -22,6 +22,7 @@
 #include "run/kept_answers.hpp"
 #include "run/memory_limit.hpp"
 #include "run/svf_statistics.hpp"
+#include "scene/seen_building.hpp"
 
 namespace farlod {
 namespace {
@@ -336,6 +337,8 @@ EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings&
 
 EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, CellsOfRun& cells) {
   require_bounds_known(package, settings);
+  // Before the work: a wrong id is told at once
+  if (settings.sky.further.seen_building) require_building(package.reader(), *settings.sky.further.seen_building);
   // Threads of this run alone: another run of the process may have another number of threads
   oneapi::tbb::task_arena arena(static_cast<int>(settings.threads));
   return arena.execute([&] {

@@ -56,6 +56,8 @@ void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
   require_between("further.eye_field_deg", q.eye_field_deg, 1.0, 90.0);
+  if (q.seen_building && q.seen_building->empty())
+    throw InvalidArgument("further.seen_building is empty: give the id of the building that receivers look for");
   if (q.wall_sectors != 4 && q.wall_sectors != 8)
     throw InvalidArgument("further.wall_sectors is " + std::to_string(q.wall_sectors) + ": give 4 or 8");
   if (q.sunlit_total && !q.sun)

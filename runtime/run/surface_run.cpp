@@ -206,7 +206,8 @@ void name_surfaces(SurfaceMeans& means, const SourcesFile& sources) {
 
 SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& surfaces, const EvaluationSettings& evaluation,
                                const OnSurfacePoints& on_points, const RunSettings& run) {
-  const ResolvedSettings settings = resolved(evaluation, run);
+  ResolvedSettings settings = resolved(evaluation, run);
+  settings.sky.on_surfaces = true;
   check(surfaces, evaluation.further);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();

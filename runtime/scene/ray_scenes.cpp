@@ -61,6 +61,11 @@ const SeenSurfaces& WholeCityOnDemand::surfaces() const {
   return *surfaces_;
 }
 
+const SeenBuilding& WholeCityOnDemand::building(const std::string& id) const {
+  std::call_once(has_building_, [&] { building_.emplace(package_, id, stop_); });
+  return *building_;
+}
+
 const TriangleIndex& WholeCityOnDemand::triangles() const {
   std::call_once(has_triangles_, [&] { triangles_.emplace(triangles_of_whole_city(package_, stop_)); });
   return *triangles_;

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <string>
 
 #include "base/grid.hpp"
 #include "farlod/canopy.hpp"
@@ -12,6 +13,7 @@
 #include "occlusion/occluder.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "package/package_reader.hpp"
+#include "scene/seen_building.hpp"
 #include "scene/seen_surfaces.hpp"
 #include "scene/triangle_index.hpp"
 
@@ -55,15 +57,18 @@ class WholeCityOnDemand {
   [[nodiscard]] const TriangleIndex& triangles() const;
   /// A place of the frame of `cell` in their frame.
   [[nodiscard]] Point3d scene_from_cell(const Point3f& p_cell, Cell cell) const;
+  /// What is seen of a building; `id` is the same at each call.
+  [[nodiscard]] const SeenBuilding& building(const std::string& id) const;
   /// `settings` are the same at each call.
   [[nodiscard]] const CrownOccluder& crowns(const CanopySettings& settings) const;
 
  private:
   const PackageReader& package_;
   std::stop_token stop_;
-  mutable std::once_flag has_city_, has_surfaces_, has_triangles_, has_crowns_;
+  mutable std::once_flag has_city_, has_surfaces_, has_building_, has_triangles_, has_crowns_;
   mutable std::optional<WholeCity> city_;
   mutable std::optional<SeenSurfaces> surfaces_;
+  mutable std::optional<SeenBuilding> building_;
   mutable std::optional<TriangleIndex> triangles_;
   mutable std::optional<CrownOccluder> crowns_;
 };

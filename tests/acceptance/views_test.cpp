@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::IsSupersetOf;
 using testing::Not;
 
@@ -85,11 +86,49 @@ TEST_F(PackedTown, ViewsAreBandsOfARaster) {
               AllOf(Contains("view_wall_ne"), Contains("view_wall_ne_eye"), Not(Contains("view_sky_up"))));
 }
 
+/// Roofs and walls that face a tower see it; its own flat roof and its walls do not.
+TEST_F(PackedTown, ABuildingIsSeenFromSurfacesOfOthers) {
+  const std::string tower = tower_of(small_town()).id;
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 12 --quantity view_building --sees " + tower);
+  const CsvTable surfaces = table("o.csv");
+  std::size_t own = 0, seeing = 0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    const bool is_own = surfaces.text(n, "building") == tower;
+    own += is_own ? 1 : 0;
+    seeing += surfaces.number(n, "sees_building") == 1.0 ? 1 : 0;
+    EXPECT_EQ(surfaces.number(n, "view_building") > 0.0, surfaces.number(n, "sees_building") == 1.0) << n;
+    if (is_own) {
+      EXPECT_EQ(surfaces.number(n, "sees_building"), 0.0) << n;
+    }
+  }
+  EXPECT_GT(own, 0U);
+  EXPECT_GT(seeing, own);
+  EXPECT_LT(seeing, surfaces.size() - own);
+}
+
+TEST_F(PackedTown, ABuildingIsBandsOfARaster) {
+  folder.must("farlod-svf a.farlod -o o.tif --grid 20 --rays 100 --quantity view_building --sees " + small_town().front().id);
+  EXPECT_THAT(band_names(folder.path("o.tif")), ElementsAre("svf", "view_building", "sees_building"));
+}
+
+TEST_F(PackedTown, ABuildingThatThereIsNotIsRefusedByOneThatThereIs) {
+  const std::string id = small_town().front().id, near = id + "x";
+  for (const std::string& run : std::vector<std::string>{"-o o.csv" + at_crossing, "-o o.tif --grid 20",
+                                                         "-o o.tif --grid 20 --dry-run", "-o o.csv --surfaces all"}) {
+    const Outcome refused = folder.run("farlod-svf a.farlod --quantity view_building --sees " + near + " " + run);
+    EXPECT_EQ(refused.exit_code, exit_usage) << run;
+    EXPECT_EQ(refused.err, "farlod-svf: the package has no building \"" + near + "\"; did you mean " + id + "?\n") << run;
+  }
+}
+
 TEST_F(PackedTown, ViewsThatDoNotFitAreRefused) {
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
     expect_refusal(folder.run("farlod-svf a.farlod -o o.csv " + arguments), exit_usage, said);
   };
   refused("--at 1,2 --sky solid --quantity view_cube", {"--quantity", "--sky solid", "view_sphere"});
+  refused("--at 1,2 --quantity view_building", {"--quantity", "--sees"});
+  refused("--at 1,2 --sees b1", {"--sees", "view_building"});
+  refused("--at 1,2 --quantity view_building --sees b1 --wall-sectors 8", {"--wall-sectors", "view_factors"});
   refused("--at 1,2 --wall-sectors 8", {"--wall-sectors", "view_factors"});
   refused("--at 1,2 --quantity view_factors --eye-field 20", {"--eye-field", "view_eye"});
   for (const std::string word : {"view_cube", "view_sphere", "view_eye"})

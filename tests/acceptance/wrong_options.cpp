@@ -138,6 +138,8 @@ std::vector<WrongCommand> wrong_words() {
       map("--points-crs 4326", {"--points-crs", "--points or --along"}),
       map("--quantity view_factors --wall-sectors 6", {"--wall-sectors: 6 is not one of 4, 8"}),
       map("--quantity view_eye --eye-field 91", {"--eye-field", "from 1 to 90"}),
+      map("--quantity view_building", {"--quantity", "view_building", "--sees"}),
+      map("--sees b1", {"--sees: it goes with --quantity view_building"}),
       map("--sky-patches 9", {"--sky-patches: 9 is not one of 145, 577"}),
       usage("farlod-svf a.farlod -o o.aasc --grid 2", {"o.aasc", "choose one of", "did you mean .asc?"}),
       usage("farlod-svf a.farlod -o '' --grid 2", {"-o: the name is empty: give a file"}),

@@ -104,6 +104,8 @@ void add_views(Cases& cases) {
   for (const double field_deg : {0.0, 0.9, 90.1, -30.0, nan, infinity})
     cases.add(all, "a field of " + std::to_string(field_deg),
               [=](Arguments& a) { a.settings.further.eye_field_deg = field_deg; });
+  for (const std::string id : {"", "no such building"})
+    cases.add(all, "looking for \"" + id + "\"", [=](Arguments& a) { a.settings.further.seen_building = id; });
   cases.add(all, "faces of a cube beside solid angles", [](Arguments& a) {
     a.settings.weight = SkyWeight::solid_angle;
     a.settings.further.view_cube = true;

@@ -150,6 +150,24 @@ def test_views_by_solid_angle(village: farlod.City) -> None:
     np.testing.assert_allclose(2.0 * solid["view_sky_sphere"], solid["view_sky"], atol=1e-6, equal_nan=True)
 
 
+def test_a_building_is_seen_where_nothing_hides_it(village: farlod.City) -> None:
+    points = points_of(village, 100)
+    building = village.surfaces("roofs", 5.0, geometry=False).building[0]
+    seen = village.evaluate(points, quantities=["view_building"], sees=building, rays=200).quantities
+    known = ~np.isnan(seen["view_building"])
+    assert set(seen["sees_building"][known]) == {0.0, 1.0}
+    assert (seen["view_building"][known] > 0.0).any() and seen["view_building"][known].max() < 1.0
+    assert not (seen["view_building"][known] > 0.0)[seen["sees_building"][known] == 0.0].any()
+    with pytest.raises(farlod.InvalidArgument, match='no building "cathedral"'):
+        village.evaluate(points, quantities=["view_building"], sees="cathedral")
+    with pytest.raises(farlod.InvalidArgument, match="view_building"):
+        village.evaluate(points, sees=building)
+    with pytest.raises(farlod.InvalidArgument, match="seen_building is empty"):
+        village.evaluate(points, quantities=["view_building"])
+    with pytest.raises(farlod.InvalidArgument, match="sees is 7"):
+        village.evaluate(points, quantities=["view_building"], sees=7)  # type: ignore[arg-type]
+
+
 def test_views_that_there_are_not(village: farlod.City) -> None:
     with pytest.raises(farlod.InvalidArgument, match="wall_sectors is 6"):
         village.evaluate([[550000.0, 5500000.0]], quantities=["view_factors"], wall_sectors=6)

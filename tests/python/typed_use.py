@@ -30,6 +30,7 @@ def walls(city: farlod.City) -> object:
     print(city.cells(2.0, threads=1, progress=listen))
     print(city.view_factor_matrix("walls", spacing=1.0, rays=500).seen("sky").mean())
     print(city.evaluate([[1.0, 2.0]], quantities=["view_cube", "view_eye"], wall_sectors=8, eye_field=20.0).quantities)
+    print(city.evaluate([[1.0, 2.0]], quantities=["view_building"], sees="town hall").quantities)
     try:
         city.look_up((0.0, 0.0))
     except farlod.InvalidPoint as error:

@@ -62,6 +62,11 @@ class Raster(QgisTest):
                      STEP=8, RAYS=200, QUANTITIES=["view_sphere", "view_eye"], WALL_SECTORS="8", EYE_FIELD=20.0)
         self.assertEqual(pixels(WORK / "views_qgis.tif")[3], 1 + 13 + 13)
 
+    def test_a_building_is_looked_for(self) -> None:
+        self.compare("landmark", ["--grid", 8, "--rays", 200, "--quantity", "view_building", "--sees", "building_0_0_0"],
+                     STEP=8, RAYS=200, QUANTITIES=["view_building"], WALL_SECTORS="8", SEES="building_0_0_0")
+        self.assertEqual(pixels(WORK / "landmark_qgis.tif")[3], 1 + 2)
+
     def test_extent_and_mask_choose_pixels(self) -> None:
         self.compare("box", ["--grid", 2, "--bbox", "550000,5499950,550040,5499990"], STEP=2,
                      EXTENT="550000,550040,5499950,5499990 [EPSG:32632]")

@@ -145,7 +145,8 @@ class PointsOfCity(OpenCity):
             horizontal (``view_ground_below``, …); the same classes as the six faces of a cube see them, whatever the normal,
             ``"view_cube"`` (``view_sky_up``, …, with ``_down``, ``_north``, ``_east``, ``_south``, ``_west``), all around as
             shares of solid angle, ``"view_sphere"`` (``view_sky_sphere``, …), and in a field at eye level, ``"view_eye"``
-            (``view_crown_eye``, the green view, …); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
+            (``view_crown_eye``, the green view, …); ``"view_building"``: the share of the view that the building ``sees``
+            fills, and whether anything of it is seen (``sees_building``); with the crowns of a package's trees ``"svf_total"`` (and ``svfveg``), ``"svfaveg"``,
             ``"directional_vegetation"``: both of the halves of the sky (``svfNveg``, …, ``svfNaveg``, …), and ``"shares"``: of
             sky, vegetation and building.
         verify : int, default 0

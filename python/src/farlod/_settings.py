@@ -33,6 +33,7 @@ Quantity = Literal[
     "view_cube",
     "view_sphere",
     "view_eye",
+    "view_building",
     "svf_total",
     "svfaveg",
     "directional_vegetation",
@@ -48,6 +49,7 @@ Progress = Union[bool, ProgressListener, None]
 OTHER_OPTIONS = (
     "wall_sectors",
     "eye_field",
+    "sees",
     "canopy_rule",
     "leaf_off",
     "transmissivity",
@@ -78,6 +80,8 @@ class Options(TypedDict, total=False):
         ``view_wall_ne`` between ``view_wall_n`` and ``view_wall_e``, and so on.
     eye_field : float
         Degrees above and below the horizontal that ``"view_eye"`` looks at, 1 to 90 (default: 30); 90 is all around.
+    sees : str
+        The id of the building that ``"view_building"`` looks for, as ``City.surfaces`` names it.
     canopy_rule : {"umep", "crowns", "beer"}
         How light passes the crowns of trees: a share in each direction that meets any, that share of each one that is met,
         or by the length within them. Of the quantities ``"svf_total"``, ``"svfaveg"``, ``"directional_vegetation"`` and
@@ -103,6 +107,7 @@ class Options(TypedDict, total=False):
     directions: Directions
     wall_sectors: int
     eye_field: float
+    sees: str
     canopy_rule: CanopyRule
     leaf_off: bool
     transmissivity: float
@@ -196,6 +201,12 @@ class Evaluation:
             further.wall_sectors = _arguments.whole_number("wall_sectors", self.options["wall_sectors"], 4, 8)
         if "eye_field" in self.options:
             further.eye_field_deg = _arguments.number("eye_field", self.options["eye_field"])
+        if "sees" in self.options:
+            if further.seen_building is None:
+                raise InvalidArgument('sees is the building of the quantity "view_building": ask for that, too')
+            if not isinstance(self.options["sees"], str):
+                raise InvalidArgument(f"sees is {_arguments.shown(self.options['sees'])}: give the id of a building, as text")
+            further.seen_building = self.options["sees"]
 
     def _set_canopy(self, further: Any) -> None:
         rule = self.options.get("canopy_rule", "umep")

@@ -35,8 +35,8 @@ struct Change {
                           further] = evaluation;
   [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, sunlit_total, light, irradiation,
                           irradiance, illuminance, shade, sky_component, view_factors, view_factors_below, view_cube, view_sphere,
-                          view_eye, eye_field, wall_sectors, svf_total, svf_total_bounds, svfaveg, directional_vegetation,
-                          sky_shares, canopy, shadow_patches] = further;
+                          view_eye, eye_field, wall_sectors, seen_building, svf_total, svf_total_bounds, svfaveg,
+                          directional_vegetation, sky_shares, canopy, shadow_patches] = further;
   [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
   [[maybe_unused]] auto& [first, days, step] = *sunshine;
   // The intervals follow from the request, the package and the file
@@ -153,6 +153,8 @@ TEST_F(ResultKey, HasEachQuantity) {
                          {"view_eye", further(&Quantities::view_eye)},
                          {"view_eye of another field",
                           [](SvfOptions& o) { o.evaluation.further.view_eye = true, o.evaluation.further.eye_field_deg = 45.0; }},
+                         {"view_building", [](SvfOptions& o) { o.evaluation.further.seen_building = "a"; }},
+                         {"view_building of another", [](SvfOptions& o) { o.evaluation.further.seen_building = "b"; }},
                          {"view_cube by eight sectors",
                           [](SvfOptions& o) { o.evaluation.further.view_cube = true, o.evaluation.further.wall_sectors = 8; }},
                          {"sun of a day", sun(2026y / 6 / 21, 1, 5min)},
