@@ -20,6 +20,10 @@ namespace farlod {
 /// Directions that the wind comes from: the k-th is k · 22.5° clockwise from true north.
 inline constexpr std::size_t wind_directions = 16;
 
+/// Bins of heights, as models count them (NUDAPT): the k-th from k · 5 m to less than (k + 1) · 5 m, and the last from 70 m on.
+inline constexpr std::size_t height_bins = 15;
+inline constexpr double height_bin_m = 5.0;
+
 /// What a cell has of areas and heights. Sums over cells are those of the city, whatever the size of the cells, but for rounding
 /// and for `buildings`. What lies below the ground counts nowhere.
 struct CellAmounts {
@@ -34,6 +38,8 @@ struct CellAmounts {
   /// The integrals of the height of what is seen from above over the ground below it, and of its square, over the building plan
   /// area; the largest height.
   double volume_m3 = 0.0, height_moment_m4 = 0.0, height_max_m = 0.0;
+  /// The building plan area by its height: what lies a millimetre below a border of bins, as rounding may have it, is at it.
+  std::array<double, height_bins> plan_area_by_height_m2{};
   /// The buildings that are seen from above in the cell, each by its mean height there: number, mean, standard deviation.
   std::size_t buildings = 0;
   double building_height_mean_m = 0.0, building_height_std_m = 0.0;
@@ -79,6 +85,8 @@ struct UrbanForm {
   /// Mean and standard deviation over the building plan area.
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_mean_m() const;
   [[nodiscard]] FARLOD_EXPORT std::optional<double> height_std_m() const;
+  /// The share of the building plan area that is as high as a bin says; of all bins 1.
+  [[nodiscard]] FARLOD_EXPORT std::optional<double> height_share(std::size_t bin) const;
   /// By Macdonald et al. (1998), for staggered obstacles (A = 4.43, β = 1, C_D = 1.2, κ = 0.4), from lambda_p, lambda_f_mean and
   /// height_mean_m.
   [[nodiscard]] FARLOD_EXPORT std::optional<Roughness> roughness_macdonald() const;

@@ -78,6 +78,25 @@ void cut_by_ground(std::vector<ConvexPiece>& pieces, const CellFace& face, const
   });
 }
 
+std::size_t bin_of(double height_m) {
+  constexpr double rounding_m = 0.001;
+  const double bin = std::floor((height_m + rounding_m) / height_bin_m);
+  return static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(height_bins - 1)));
+}
+
+/// Parts a piece of a roof by its height above a triangle of the ground, which is between these two.
+void add_by_height(const ConvexPiece& piece, const CellFace& ground, double least_m, double most_m, CellAmounts& amounts) {
+  const std::size_t last = bin_of(most_m);
+  double below_m2 = 0.0;
+  for (std::size_t bin = bin_of(least_m); bin <= last; ++bin) {
+    const Point3d border = ground.corners[0] + Point3d{0.0, 0.0, static_cast<double>(bin + 1) * height_bin_m};
+    const ConvexPiece lower = bin == last ? piece : part_in(piece, HalfSpace{border, ground.normal}.opposite());
+    const double up_to_border_m2 = area_vector(lower).z;
+    amounts.plan_area_by_height_m2[bin] += up_to_border_m2 - below_m2;
+    below_m2 = up_to_border_m2;
+  }
+}
+
 /// A wind from each direction meets a surface of this area vector.
 void add_frontal(const Point3d& area, const WindDirections& winds, CellAmounts& amounts) {
   for (std::size_t k = 0; k < winds.size(); ++k) amounts.frontal_area_m2[k] += std::max(0.0, dot(horizontal(area), winds[k]));
@@ -137,6 +156,9 @@ class PlanOfCell {
       const ConvexPiece part = Column(ground_[n].corners, upwards).part_of(piece);
       std::vector<double> heights_m;
       for (const Point3d& p : part) heights_m.push_back(above(ground_[n]).signed_distance(p) / ground_[n].normal.z);
+      if (part.empty()) return;
+      const auto [least, most] = std::ranges::minmax(heights_m);
+      add_by_height(part, ground_[n], least, most, amounts_);
       for (std::size_t k = 2; k < part.size(); ++k) {
         const double third = area_vector({part[0], part[k - 1], part[k]}).z / 3.0;
         const double a = heights_m[0], b = heights_m[k - 1], c = heights_m[k], sum = a + b + c;
@@ -215,6 +237,7 @@ void CellForm::add(const CellForm& other) {
   amounts.volume_m3 += from.volume_m3;
   amounts.height_moment_m4 += from.height_moment_m4;
   amounts.height_max_m = std::max(amounts.height_max_m, from.height_max_m);
+  for (std::size_t k = 0; k < height_bins; ++k) amounts.plan_area_by_height_m2[k] += from.plan_area_by_height_m2[k];
   for (const auto& [number, part] : other.buildings) {
     buildings[number].plan_area_m2 += part.plan_area_m2;
     buildings[number].volume_m3 += part.volume_m3;

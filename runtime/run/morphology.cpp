@@ -84,6 +84,12 @@ std::optional<double> UrbanForm::height_std_m() const {
   return std::sqrt(std::max(0.0, amounts.height_moment_m4 / amounts.building_plan_area_m2 - *mean_m * *mean_m));
 }
 
+std::optional<double> UrbanForm::height_share(std::size_t bin) const {
+  const auto& areas_m2 = amounts.plan_area_by_height_m2;
+  const double all_m2 = std::accumulate(areas_m2.begin(), areas_m2.end(), 0.0);
+  return all_m2 > 0.0 ? std::optional(areas_m2[bin] / all_m2) : std::nullopt;
+}
+
 std::optional<Roughness> UrbanForm::roughness_macdonald() const {
   constexpr double a = 4.43, beta = 1.0, drag = 1.2, karman = 0.4;
   const auto height_m = height_mean_m();

@@ -85,12 +85,27 @@ ColumnDescription wind_column(std::size_t wind) {
           "frontal area density for wind from " + whole + half + "°, clockwise from true north"};
 }
 
+/// "05", or "70".
+std::string metres_text(std::size_t border) {
+  const std::size_t metres = border * static_cast<std::size_t>(height_bin_m);
+  return (metres < 10 ? "0" : "") + std::to_string(metres);
+}
+
+/// A column for each bin, named by its borders in metres: height_share_05_10.
+ColumnDescription height_column(std::size_t bin) {
+  const std::string low = metres_text(bin), share = "share of the building plan area with a height of ";
+  if (bin + 1 == height_bins) return {"height_share_" + low, "1", share + low + " m and more"};
+  const std::string high = metres_text(bin + 1);
+  return {"height_share_" + low + "_" + high, "1", share + low + " m to " + high + " m"};
+}
+
 }  // namespace
 
 std::vector<ColumnDescription> morphology_columns() {
   std::vector<ColumnDescription> columns;
   for (const MorphologyColumn& c : before_winds) columns.push_back({c.name, c.unit, c.definition});
   for (std::size_t k = 0; k < wind_directions; ++k) columns.push_back(wind_column(k));
+  for (std::size_t k = 0; k < height_bins; ++k) columns.push_back(height_column(k));
   return columns;
 }
 
@@ -98,6 +113,7 @@ std::vector<std::optional<double>> morphology_values(const UrbanForm& form) {
   std::vector<std::optional<double>> values;
   for (const MorphologyColumn& c : before_winds) values.push_back(c.value(form));
   for (std::size_t k = 0; k < wind_directions; ++k) values.emplace_back(form.lambda_f(k));
+  for (std::size_t k = 0; k < height_bins; ++k) values.push_back(form.height_share(k));
   return values;
 }
 

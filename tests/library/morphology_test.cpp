@@ -37,6 +37,7 @@ CellAmounts amounts_together(const std::vector<CellMorphology>& cells) {
     sum.volume_m3 += a.volume_m3;
     sum.height_moment_m4 += a.height_moment_m4;
     sum.height_max_m = std::max(sum.height_max_m, a.height_max_m);
+    for (std::size_t k = 0; k < height_bins; ++k) sum.plan_area_by_height_m2[k] += a.plan_area_by_height_m2[k];
   }
   return sum;
 }
@@ -95,6 +96,23 @@ TEST(Morphology, WhatSeveralRoofsCoverCountsOnceAndAtTheHigherOne) {
   }
 }
 
+/// Houses of 4 m, 10 m and 80 m, one of them across cells: 10 m begins a bin, whatever rounding has made of it.
+TEST(Morphology, HeightsGoToTheBinsOfModels) {
+  const FormTown town(scenes::FootprintsText()
+                          .add(building("a", 4.0), form_box(0, 0, 10, 10))
+                          .add(building("b", 10.0), form_box(20, 0, 40, 10))
+                          .add(building("c", 80.0), form_box(50, 0, 60, 20)));
+  for (const double cell_edge_m : {13.0, 200.0}) {
+    SCOPED_TRACE(cell_edge_m);
+    UrbanForm together;
+    together.amounts = amounts_together(town.cells(cell_edge_m));
+    const auto& areas_m2 = together.amounts.plan_area_by_height_m2;
+    for (const auto& [bin, area_m2] : {std::pair<std::size_t, double>(0, 100.0), {1, 0.0}, {2, 200.0}, {13, 0.0}, {14, 200.0}})
+      EXPECT_NEAR(areas_m2.at(bin), area_m2, form_rounding_m2) << bin;
+    EXPECT_NEAR(*together.height_share(2), 0.4, 1e-6);
+  }
+}
+
 TEST(Morphology, TheSameHouseTwiceIsOne) {
   const FormTown town(
       scenes::FootprintsText().add(building("a", 10.0), form_box(0, 0, 10, 20)).add(building("b", 10.0), form_box(0, 0, 10, 20)));
@@ -147,7 +165,8 @@ TEST(Morphology, ACellWithoutBuildingsHasNoHeights) {
   EXPECT_EQ(cell.lambda_p(), 0.0);
   EXPECT_EQ(cell.complete_aspect_ratio(), 1.0);
   EXPECT_EQ(cell.height_to_width(), 0.0);
-  EXPECT_FALSE(cell.height_mean_m() || cell.height_std_m() || cell.roughness_macdonald() || cell.roughness_kanda());
+  EXPECT_FALSE(cell.height_mean_m() || cell.height_std_m() || cell.height_share(0) || cell.roughness_macdonald() ||
+               cell.roughness_kanda());
 }
 
 /// A low and a high house in the west and again in the east. The corner of four cells is in their middle.
@@ -215,15 +234,15 @@ TEST(Morphology, EachColumnHasItsValue) {
   CellMorphology cell;
   cell.amounts.plan_area_m2 = 400.0;
   cell.amounts.frontal_area_m2.back() = 100.0;
+  cell.amounts.plan_area_by_height_m2[1] = 50.0;
+  cell.amounts.plan_area_by_height_m2.back() = 150.0;
   cell.vegetation = CellVegetation{100.0, 3, 7.5};
   const auto columns = morphology_columns();
   const auto values = morphology_values(cell);
   ASSERT_EQ(columns.size(), values.size());
-  const std::map<std::string_view, std::optional<double>> expected{{"area_m2", 400.0},
-                                                                   {"vegetation_fraction", 0.25},
-                                                                   {"lambda_f_337", 0.25},
-                                                                   {"crown_height_mean_m", 7.5},
-                                                                   {"height_mean_m", std::nullopt}};
+  const std::map<std::string_view, std::optional<double>> expected{
+      {"area_m2", 400.0},           {"vegetation_fraction", 0.25}, {"lambda_f_337", 0.25},         {"crown_height_mean_m", 7.5},
+      {"height_share_05_10", 0.25}, {"height_share_70", 0.75},     {"height_mean_m", std::nullopt}};
   std::size_t compared = 0;
   for (std::size_t n = 0; n < columns.size(); ++n) {
     const auto found = expected.find(columns[n].name);

@@ -82,6 +82,29 @@ TEST(CellAmounts, AGabledHouseHasTheAreaOfItsSlopes) {
   EXPECT_NEAR(a.frontal_area_m2[12], 20.0 * 9.0, rounding_m2);
 }
 
+/// A roof that rises from 2 m to 22 m over 40 m: what lies between two heights is as wide as they are apart.
+TEST(CellAmounts, ASlopeIsPartedByItsHeights) {
+  CellFaces faces = on_ground(0.0);
+  add_fan(faces.roofs, {{40, 40, 2}, {80, 40, 22}, {80, 60, 22}, {40, 60, 2}});
+  const CellAmounts a = form_of(faces, true_winds()).all();
+  for (const auto& [bin, rise_m] : {std::pair<std::size_t, double>(0, 3.0), {1, 5.0}, {2, 5.0}, {3, 5.0}, {4, 2.0}, {5, 0.0}})
+    EXPECT_NEAR(a.plan_area_by_height_m2.at(bin), 800.0 * rise_m / 20.0, 10.0 * rounding_m2) << bin;
+}
+
+/// Level roofs on ground that rises by a tenth: heights count from the ground, and the last bin takes all that is higher.
+TEST(CellAmounts, HeightsOfBinsCountFromTheGround) {
+  CellFaces faces = on_ground(0.1);
+  add_fan(faces.roofs, {{0, 40, 12}, {40, 40, 12}, {40, 60, 12}, {0, 60, 12}});
+  add_fan(faces.roofs, {{80, 40, 300}, {90, 40, 300}, {90, 60, 300}, {80, 60, 300}}, 1);
+  const CellAmounts a = form_of(faces, true_winds()).all();
+  EXPECT_NEAR(a.plan_area_by_height_m2[2], 400.0, 10.0 * rounding_m2) << "12 m to 10 m";
+  EXPECT_NEAR(a.plan_area_by_height_m2[1], 400.0, 10.0 * rounding_m2) << "10 m to 8 m";
+  EXPECT_NEAR(a.plan_area_by_height_m2[14], 200.0, 10.0 * rounding_m2);
+  UrbanForm form;
+  form.amounts = a;
+  EXPECT_NEAR(*form.height_share(14), 0.2, 1e-12);
+}
+
 /// A house on ground that rises by a tenth, from 5 m below its lowest place to a level roof at 20 m.
 TEST(CellAmounts, WhatLiesBelowTheGroundDoesNotCount) {
   CellFaces faces = on_ground(0.1);
