@@ -317,7 +317,7 @@ TEST_P(Tutorials, SayWhatTheProgramsSay) {
 INSTANTIATE_TEST_SUITE_P(
     All, Tutorials,
     testing::Values(Tutorial{"city_files.md", 6, {}}, Tutorial{"is_my_city_right.md", 2, {}}, Tutorial{"trees.md", 10, {}},
-                    Tutorial{"jobs.md", 35, {}}, Tutorial{"solar_register.md", 4, {}}, Tutorial{"urban_form.md", 3, {}},
+                    Tutorial{"jobs.md", 35, {}}, Tutorial{"solar_register.md", 4, {}}, Tutorial{"urban_form.md", 5, {}},
                     Tutorial{"facades.md", 3, {"facades.csv", "facades.surfaces.csv", "facades.buildings.csv"}}));
 
 }  // namespace
