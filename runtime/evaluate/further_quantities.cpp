@@ -146,7 +146,8 @@ ViewRanges view_ranges_of(const Quantities& quantities) {
           .building = range_of(Quantity::view_building, quantities)};
 }
 
-FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest)
+FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest,
+                                     std::shared_ptr<const LightOfPeriod> light)
     : quantities_(quantities),
       size_(columns_of(quantities).size()),
       crowns_(range_of_crowns(quantities)),
@@ -165,7 +166,10 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
   if (quantities.sky_patches != SkyPatchSet::none) divide_into_patches();
   if (quantities.sun) sun_ = sorted_by_azimuth(*quantities.sun);
   if (quantities.shade) sort_sun_of_light();
-  if (needs_light()) light_.emplace(quantities.light.value_or(Light{}), turns_, quantities.illuminance);
+  if (!needs_light()) return;
+  light_of_period_ = light ? std::move(light)
+                           : std::make_shared<const LightOfPeriod>(quantities.light.value_or(Light{}), quantities.illuminance);
+  light_.emplace(*light_of_period_, turns_);
 }
 
 HorizonColumns FurtherQuantities::horizon_columns() const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -84,8 +85,9 @@ struct ProfiledPacket {
 /// Immutable: threads may share it, each with working memory of its own.
 class FurtherQuantities {
  public:
-  /// `azimuths` is a number that azimuths_for gave.
-  FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest);
+  /// `azimuths` is a number that azimuths_for gave. `light` is that of the quantities, where somebody has it already.
+  FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest,
+                    std::shared_ptr<const LightOfPeriod> light = nullptr);
 
   /// Values of a receiver: as many as columns_of names.
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -113,6 +115,8 @@ class FurtherQuantities {
   /// Where the views are, which rays find: evaluate() leaves their places out.
   [[nodiscard]] const ViewRanges& view_columns() const { return views_; }
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
+  /// Null where nothing is made of light.
+  [[nodiscard]] const std::shared_ptr<const LightOfPeriod>& light_of_period() const { return light_of_period_; }
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
 
@@ -209,6 +213,7 @@ class FurtherQuantities {
   std::vector<SunAtAzimuth> sun_;
   SunOfTime sun_of_light_;
   std::vector<SunOfTime> sun_of_steps_;
+  std::shared_ptr<const LightOfPeriod> light_of_period_;
   std::optional<LightTable> light_;
 };
 

@@ -63,7 +63,7 @@ void LightOfLittleSky::improve(const CellReceivers& cell, const SkyAnswers& answ
   if (indices.empty()) return;
   std::call_once(once_, [this] {
     finer_ = std::make_unique<const Evaluation>(evaluation_.package, finer(evaluation_.settings, light_), evaluation_.stop,
-                                                evaluation_.city);
+                                                evaluation_.city, evaluation_.further.light_of_period());
   });
   const std::size_t all = evaluation_.further.size(), of_light = finer_->further.size();
   std::vector<float> svf(indices.size()), light(indices.size() * of_light);

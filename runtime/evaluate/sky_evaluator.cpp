@@ -71,12 +71,13 @@ void EvaluationCounter::add_times(Clock::time_point start, Clock::time_point sce
   evaluate_s_ += seconds(Clock::now() - scene_ready);
 }
 
-Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_token t, City c)
+Evaluation::Evaluation(const PackageReader& p, const SkySettings& s, std::stop_token t, City c,
+                       std::shared_ptr<const LightOfPeriod> light)
     : package(p),
       settings(s),
       stop(std::move(t)),
       directions(s.weight, s.rays, p.grid().rotation, s.directions, stop),
-      further(s.further, s.azimuths, p.manifest()),
+      further(s.further, s.azimuths, p.manifest(), std::move(light)),
       city(std::move(c)) {
   FARLOD_EXPECTS(!s.allowed_error || s.engine == Engine::exact || s.engine == Engine::near_only ||
                  !p.manifest().far_map.is_box());

@@ -45,7 +45,8 @@ class EvaluationCounter {
 /// What is asked of all cells, and what they share.
 struct Evaluation {
   using City = std::shared_ptr<const WholeCityOnDemand>;
-  Evaluation(const PackageReader& p, const SkySettings& s, std::stop_token t, City c);
+  Evaluation(const PackageReader& p, const SkySettings& s, std::stop_token t, City c,
+             std::shared_ptr<const LightOfPeriod> light = nullptr);
 
   const PackageReader& package;
   SkySettings settings;

@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "radiation/light_table.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <numeric>
-#include <ratio>
 #include <utility>
 
 #include "radiation/perez_sky.hpp"
@@ -124,49 +120,6 @@ void add(const Parts& more, Parts& parts) {
   }
 }
 
-/// What counts of an interval: on a plane that faces the sun, and of the sky on a level plane.
-struct Amounts {
-  double direct_normal, diffuse;
-};
-using Measure = Amounts (*)(const LightInterval& interval);
-Amounts in_kwh_m2(const LightInterval& interval) {
-  return {energy_kwh_m2(interval.direct_normal_w_m2, interval.hours), energy_kwh_m2(interval.diffuse_w_m2, interval.hours)};
-}
-Amounts in_lux_hours(const LightInterval& interval) {
-  return {interval.direct_normal_lux.value_or(0.0) * interval.hours, interval.diffuse_lux.value_or(0.0) * interval.hours};
-}
-
-auto end_of(const LightInterval& interval) {
-  return interval.begin +
-         std::chrono::round<std::chrono::seconds>(std::chrono::duration<double, std::ratio<3600>>(interval.hours));
-}
-
-/// A position of the sun, and its energy on a plane that faces it.
-struct SunLight {
-  SunPosition sun;
-  double energy = 0.0;
-  bool goes_on = false;  ///< from the position before
-};
-/// Those of intervals, where the sun is up.
-std::vector<SunLight> suns_of(std::span<const LightInterval* const> intervals, Measure measure) {
-  std::vector<SunLight> suns;
-  const LightInterval* before = nullptr;
-  for (const LightInterval* const interval : intervals) {
-    double hours_of_sun = 0.0;
-    for (const SunPosition& sun : interval->sun) hours_of_sun += sun.elevation.radians() > 0.0 ? sun.hours : 0.0;
-    if (!(hours_of_sun > 0.0)) continue;
-    const double energy = measure(*interval).direct_normal;
-    bool goes_on = before != nullptr && interval->begin == end_of(*before);
-    for (const SunPosition& sun : interval->sun) {
-      if (sun.elevation.radians() <= 0.0) continue;
-      suns.push_back({sun, energy * sun.hours / hours_of_sun, goes_on});
-      goes_on = true;
-    }
-    before = interval;
-  }
-  return suns;
-}
-
 /// The sun's way between its positions, one after the other.
 class WayOfSun {
  public:
@@ -216,76 +169,15 @@ void add_direct(std::span<const SunLight> suns, const SortedTurns& turns, Parts&
   }
 }
 
-/// The sky of some intervals.
-struct SkyOfIntervals {
-  LightInterval mean;
-  double diffuse = 0.0;  ///< what counts of it, on a level plane
-};
-
-/// Adds an interval that follows.
-void add_interval(const LightInterval& interval, double diffuse, SkyOfIntervals& sky) {
-  LightInterval& mean = sky.mean;
-  const double hours = mean.hours + interval.hours, share = hours > 0.0 ? interval.hours / hours : 0.0;
-  mean.direct_normal_w_m2 += share * (interval.direct_normal_w_m2 - mean.direct_normal_w_m2);
-  mean.diffuse_w_m2 += share * (interval.diffuse_w_m2 - mean.diffuse_w_m2);
-  mean.extraterrestrial_w_m2 += share * (interval.extraterrestrial_w_m2 - mean.extraterrestrial_w_m2);
-  mean.hours = hours;
-  mean.sun.insert(mean.sun.end(), interval.sun.begin(), interval.sun.end());
-  sky.diffuse += diffuse;
-}
-
-/// Whether an interval follows a sky, by day, and is with it no longer than a quarter of an hour.
-bool goes_on(const SkyOfIntervals& sky, const LightInterval& interval) {
-  constexpr double longest_h = 0.25 + 1e-6;
-  return interval.begin == end_of(sky.mean) && sky.mean.hours + interval.hours <= longest_h && has_sun(sky.mean) &&
-         has_sun(interval);
-}
-
-/// The skies of intervals, those of a quarter of an hour together: steps of minutes are too fine for the bins of the grid, which
-/// the sun takes ten minutes to pass.
-std::vector<SkyOfIntervals> skies_of(std::span<const LightInterval* const> intervals, Measure measure) {
-  std::vector<SkyOfIntervals> skies;
-  for (const LightInterval* const interval : intervals) {
-    const double diffuse = measure(*interval).diffuse;
-    if (!skies.empty() && goes_on(skies.back(), *interval))
-      add_interval(*interval, diffuse, skies.back());
-    else
-      skies.push_back({*interval, diffuse});
-  }
-  return skies;
-}
-
-/// The skies of some intervals by several threads: so many pieces are added up in their order, whoever made them.
-SkyGrid sky_of(std::span<const LightInterval* const> intervals, SkyModel model, Measure measure) {
-  const std::vector<SkyOfIntervals> skies = skies_of(intervals, measure);
-  constexpr std::size_t pieces = 16;
-  std::vector<SkyGrid> of_pieces(pieces);
-  const auto add_piece = [&](std::size_t n) {
-    const std::size_t begin = n * skies.size() / pieces, end = (n + 1) * skies.size() / pieces;
-    for (const SkyOfIntervals& sky : std::span(skies).subspan(begin, end - begin)) of_pieces[n].add(sky.mean, model, sky.diffuse);
-  };
-  // A table may be made in the midst of a cell, for all cells: a thread that waits here must not begin another cell
-  oneapi::tbb::this_task_arena::isolate([&] { oneapi::tbb::parallel_for(std::size_t{0}, pieces, add_piece); });
-  SkyGrid all = std::move(of_pieces.front());
-  for (const SkyGrid& piece : std::span(of_pieces).subspan(1)) all.add(piece);
-  return all;
-}
-
 struct DirectAndDiffuse {
   Parts direct, diffuse;
 };
-template <class Wanted>
-DirectAndDiffuse light_of(const Light& light, std::span<const double> turns, Measure measure, const Wanted& wanted) {
-  std::vector<const LightInterval*> intervals;
-  for (const LightInterval& interval : light.intervals)
-    if (wanted(interval)) intervals.push_back(&interval);
+DirectAndDiffuse light_of(const SunAndSky& light, std::span<const double> turns) {
   const std::size_t size = turns.size() * LightTable::last_knot;
   DirectAndDiffuse result{Parts(size), Parts(size)};
-  const SortedTurns sorted(turns);
-  add_direct(suns_of(intervals, measure), sorted, result.direct);
-  const SkyGrid sky = sky_of(intervals, light.sky_model, measure);
+  add_direct(light.suns, SortedTurns(turns), result.direct);
   add_sky(
-      turns, sky.on_level(), [&](double turn, Angle at) { return sky.radiance(turn, at); }, result.diffuse);
+      turns, light.sky.on_level(), [&](double turn, Angle at) { return light.sky.radiance(turn, at); }, result.diffuse);
   return result;
 }
 
@@ -305,7 +197,7 @@ struct Layers {
   }
 };
 /// The uniform and the overcast sky have one azimuth.
-Layers layers_of(const Light& light, std::span<const double> turns, std::span<const unsigned> months, bool with_illuminance) {
+Layers layers_of(const LightOfPeriod& light, std::span<const double> turns) {
   Layers layers{std::vector<Parts>(static_cast<std::size_t>(LightLayer::first_total)), {}};
   const auto of = [&](LightLayer layer) -> Parts& { return layers.of[static_cast<std::size_t>(layer)]; };
   for (const LightLayer layer : {LightLayer::uniform, LightLayer::overcast}) of(layer).resize(LightTable::last_knot);
@@ -316,15 +208,13 @@ Layers layers_of(const Light& light, std::span<const double> turns, std::span<co
       of(LightLayer::overcast));
   add_sky(
       turns.first(1), of_azimuth, [](double, Angle) { return 1.0; }, of(LightLayer::uniform));
-  for (std::size_t n = 0; n < std::max<std::size_t>(1, months.size()); ++n) {
-    DirectAndDiffuse part =
-        light_of(light, turns, in_kwh_m2, [&](const LightInterval& i) { return months.empty() || i.month == months[n]; });
+  for (const SunAndSky& energy : light.energy) {
+    DirectAndDiffuse part = light_of(energy, turns);
     add(part.direct, of(LightLayer::direct));
     add(part.diffuse, of(LightLayer::diffuse));
-    if (!months.empty()) layers.add_total(std::move(part));
+    if (!light.months.empty()) layers.add_total(std::move(part));
   }
-  if (with_illuminance)
-    layers.add_total(light_of(light, turns, in_lux_hours, [](const LightInterval& i) { return i.diffuse_lux.has_value(); }));
+  if (light.illuminance) layers.add_total(light_of(*light.illuminance, turns));
   return layers;
 }
 
@@ -341,22 +231,9 @@ std::string begin_text_of(const LightInterval& interval) {
   return text.data();
 }
 
-std::vector<unsigned> months_by_name(const Light& light) {
-  std::vector<unsigned> months;
-  if (!light.by_month) return months;
-  for (const LightInterval& interval : light.intervals) months.push_back(interval.month);
-  std::sort(months.begin(), months.end());
-  months.erase(std::unique(months.begin(), months.end()), months.end());
-  return months;
-}
-
-LightTable::LightTable(const Light& light, std::span<const double> turns, bool with_illuminance)
-    : months_(months_by_name(light)) {
-  for (const LightInterval& interval : light.intervals) {
-    hours_ += interval.hours;
-    hours_of_illuminance_ += interval.diffuse_lux ? interval.hours : 0.0;
-  }
-  Layers layers = layers_of(light, turns, months_, with_illuminance);
+LightTable::LightTable(const LightOfPeriod& light, std::span<const double> turns)
+    : months_(light.months), hours_(light.hours), hours_of_illuminance_(light.hours_of_illuminance) {
+  Layers layers = layers_of(light, turns);
   diffuse_of_totals_ = std::move(layers.diffuse_of_totals);
   pairs_ = (layers.of.size() + 1) / 2;
   even_.resize(last_knot + 1);

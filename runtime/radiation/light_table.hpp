@@ -11,6 +11,7 @@
 
 #include "farlod/light.hpp"
 #include "horizon/light_kernels.hpp"
+#include "radiation/light_of_period.hpp"
 
 namespace farlod {
 
@@ -37,9 +38,6 @@ struct LightPart {
 /// When an interval begins, as ISO 8601 has it without marks that names of columns may not have: `20260621T1000`.
 [[nodiscard]] std::string begin_text_of(const LightInterval& interval);
 
-/// The months of a period that irradiation has columns for, ascending: none unless they are asked for.
-[[nodiscard]] std::vector<unsigned> months_by_name(const Light& light);
-
 /// The light of a period as one distribution over the sky (D. Robinson and A. Stone, PLEA 2004), integrated for the directions
 /// above a slope of each azimuth: then the energy that falls on a receiver is a sum over its horizon, however many hours the
 /// period has. Receivers with a normal n get n · ∫ ω L(ω) dω; of ω the parts along the azimuth and up are integrated.
@@ -48,7 +46,9 @@ struct LightPart {
 class LightTable {
  public:
   /// Azimuths are shares of the turn, clockwise from true north; each stands for the same part of it.
-  LightTable(const Light& light, std::span<const double> turns, bool with_illuminance = false);
+  LightTable(const LightOfPeriod& light, std::span<const double> turns);
+  LightTable(const Light& light, std::span<const double> turns, bool with_illuminance = false)
+      : LightTable(LightOfPeriod(light, with_illuminance), turns) {}
 
   /// With those of twelve months, and illuminance.
   static constexpr std::size_t most_pairs = 9;
@@ -110,7 +110,7 @@ class LightTable {
 
   std::size_t pairs_ = 0;
   std::vector<unsigned> months_;
-  double hours_ = 0.0, hours_of_illuminance_ = 0.0;
+  double hours_, hours_of_illuminance_;
   std::vector<LightPair> even_;    ///< even_[knot]: the uniform and the overcast sky, alike at all azimuths
   std::vector<LightPair> values_;  ///< values_[azimuth][knot][pair - 1]
   std::vector<float> on_level_, on_upright_, diffuse_of_totals_;
