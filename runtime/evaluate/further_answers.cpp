@@ -261,6 +261,7 @@ void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<co
   FARLOD_EXPECTS(drawn.empty() || drawn.size() == packets.size());
   if (near_sky_) near_sky_->evaluate(packets);
   if (canopies_) find_canopies(packets, numbers, drawn);
+  quantities_.find_light(std::span(profiles_).first(packets.size()), packets, light_);
   for (std::size_t n = 0; n < packets.size(); ++n) {
     store(n, packets[n], numbers.first(packets[n].count));
     numbers = numbers.subspan(packets[n].count);
@@ -277,7 +278,10 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   const std::size_t columns = quantities_.size();
   values_.resize(numbers.size() * columns);
   static const DimmedSky undimmed;
-  quantities_.evaluate({profiles_[packet], receivers, sky, canopies_ ? canopies_->dimmed(packet) : undimmed, rows_}, values_);
+  const std::size_t layers = quantities_.light_layers();
+  quantities_.evaluate({profiles_[packet], receivers, sky, canopies_ ? canopies_->dimmed(packet) : undimmed,
+                        std::span(light_).subspan(packet * layers, layers), rows_},
+                       values_);
   if (!of_canopies_.empty()) {
     const auto [first, count] = quantities_.canopy_columns();
     for (std::size_t l = 0; l < numbers.size(); ++l)

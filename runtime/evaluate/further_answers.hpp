@@ -63,6 +63,7 @@ class FurtherAnswers {
   std::unique_ptr<CanopyAnswers> canopies_;
   std::vector<SkiesOfPacket> skies_;  ///< of each packet, as the next one
   std::span<const CanopyAnswers::Answers> of_canopies_;
+  std::vector<PacketHorizon::Row> light_;  ///< of the packets of a group, as find_light gives it
   ProfiledPacket::Rows rows_;
   std::vector<float> values_;
 };

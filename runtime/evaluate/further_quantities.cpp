@@ -211,7 +211,7 @@ void FurtherQuantities::divide_into_patches() {
 void FurtherQuantities::evaluate(const ProfiledPacket& packet, std::span<float> values) const {
   FARLOD_EXPECTS(values.size() == packet.receivers.count * size_);
   QuantityColumns columns(size_, values);
-  if (light_) find_light(packet);
+  if (light_) find_lost_light(packet);
   for (const QuantityRow& row : quantity_table())
     if (row.add != nullptr && row.is_asked(quantities_)) (this->*row.add)(packet, columns);
   columns.skip(crowns_.count);
@@ -270,7 +270,7 @@ void FurtherQuantities::add_view_of_building(const ProfiledPacket&, QuantityColu
 }
 
 void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, dimmed, rows] = packet;
+  const auto& [profile, receivers, sky, dimmed, light, rows] = packet;
   find_sky(profile, profile.solid_sky, receivers, azimuths_, true, rows);
   Lanes svf = sum(rows.terms);
   for (float& s : svf) s = std::clamp(s, 0.0F, 1.0F);
@@ -278,7 +278,7 @@ void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns&
 }
 
 void FurtherQuantities::add_directional(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, dimmed, rows] = packet;
+  const auto& [profile, receivers, sky, dimmed, light, rows] = packet;
   find_sky(profile, profile.sky, receivers, azimuths_, false, rows);
   const Lanes all = sum(rows.terms);
   for (const std::array<double, packet_lanes>& sums : halves_.sums(rows.terms)) {
@@ -293,7 +293,7 @@ void FurtherQuantities::add_directional(const ProfiledPacket& packet, QuantityCo
 }
 
 void FurtherQuantities::add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const {
-  const auto& [profile, receivers, sky, dimmed, rows] = packet;
+  const auto& [profile, receivers, sky, dimmed, light, rows] = packet;
   for (const Band& band : bands_) {
     std::vector<std::array<double, packet_lanes>> seen(band.patches), all(band.patches);
     const auto add_to = [&](std::vector<std::array<double, packet_lanes>>& patches, const std::vector<Row>& terms) {

@@ -67,8 +67,7 @@ struct ProfiledPacket {
   /// Working memory, kept from packet to packet.
   struct Rows {
     std::vector<PacketHorizon::Row> low, high, terms, open_terms;
-    std::vector<PacketHorizon::Row> light;  ///< light[layer][receiver] of a LightTable
-    std::vector<PacketHorizon::Row> lost;   ///< what crowns take of it
+    std::vector<PacketHorizon::Row> lost;  ///< what crowns take of the light
   };
   /// svf as it is answered, and with needs_near_sky() that of the near geometry alone.
   struct Sky {
@@ -77,7 +76,8 @@ struct ProfiledPacket {
   const SkyProfile& profile;
   const ReceiverPacket& receivers;
   const Sky& sky;
-  const DimmedSky& dimmed;  ///< by crowns
+  const DimmedSky& dimmed;                    ///< by crowns
+  std::span<const PacketHorizon::Row> light;  ///< of the packet, as find_light gives it
   Rows& rows;
 };
 
@@ -120,6 +120,11 @@ class FurtherQuantities {
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
 
+  /// Of a LightTable; none where nothing is made of light.
+  [[nodiscard]] std::size_t light_layers() const { return light_ ? light_->layers() : 0; }
+  /// What the receivers of some packets get of each layer of the light, as their profiles say: light[packet][layer][receiver].
+  void find_light(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
+                  std::vector<PacketHorizon::Row>& light) const;
   /// Writes the values of the packet's receivers, one receiver after the other, in the order of columns_of.
   void evaluate(const ProfiledPacket& packet, std::span<float> values) const;
 
@@ -151,8 +156,8 @@ class FurtherQuantities {
   [[nodiscard]] bool needs_light() const {
     return quantities_.irradiation || quantities_.irradiance || quantities_.illuminance || quantities_.sky_component;
   }
-  /// What the receivers get of each layer of the light, as their profiles and their sky view factors say.
-  void find_light(const ProfiledPacket& packet) const;
+  /// What crowns take of each layer of the light.
+  void find_lost_light(const ProfiledPacket& packet) const;
   using Lanes = PacketHorizon::Lanes;
   /// What each receiver gets in the period from the sun, from the sky, and once reflected.
   struct LightParts {

@@ -226,23 +226,34 @@ void FurtherQuantities::add_shade(const ProfiledPacket& packet, QuantityColumns&
   for (const SunOfTime& step : sun_of_steps_) columns.add(shade_of(step, packet));
 }
 
-void FurtherQuantities::find_light(const ProfiledPacket& packet) const {
-  const SkyProfile& profile = packet.profile;
+void FurtherQuantities::find_light(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
+                                   std::vector<PacketHorizon::Row>& light) const {
+  FARLOD_EXPECTS(profiles.size() == packets.size());
+  const std::size_t layers = light_layers();
+  light.resize(packets.size() * layers);
+  if (light.empty()) return;
   const auto rows = [](const SkyProfile::Rows& r) { return r.empty() ? nullptr : r.front().data(); };
-  packet.rows.light.resize(light_->layers());
+  std::vector<LitPacket> lit;
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    const SkyProfile& profile = profiles[n];
+    lit.push_back({.receivers = &packets[n],
+                   .all_look_up = packets[n].all_look_straight_up(),
+                   .sky_from = rows(profile.sky_from),
+                   .gap_from = rows(profile.gap_from),
+                   .gap_to = rows(profile.gap_to),
+                   .gap_share = rows(profile.gap_share),
+                   .sky = rows(profile.light_sky),
+                   .sums = light[n * layers].data()});
+  }
   light_kernels().sum_light({.even = light_->even(),
                              .pairs = light_->pairs(),
                              .pair_count = static_cast<std::uint32_t>(light_->pair_count()),
                              .wants_even = quantities_.sky_component,
-                             .receivers = &packet.receivers,
-                             .azimuths = azimuths_.view(),
-                             .all_look_up = packet.receivers.all_look_straight_up(),
-                             .sky_from = rows(profile.sky_from),
-                             .gap_from = rows(profile.gap_from),
-                             .gap_to = rows(profile.gap_to),
-                             .gap_share = rows(profile.gap_share),
-                             .sky = rows(profile.light_sky)},
-                            packet.rows.light.front().data());
+                             .azimuths = azimuths_.view()},
+                            lit);
+}
+
+void FurtherQuantities::find_lost_light(const ProfiledPacket& packet) const {
   LightOfCrowns::Sums lost{};
   LightOfCrowns crowns(*light_, azimuths_, packet);
   for (const DimmedSlopes& dimmed : packet.dimmed) crowns.add_lost(dimmed, lost);
@@ -261,7 +272,7 @@ FurtherQuantities::LightParts FurtherQuantities::light_parts(const ProfiledPacke
   constexpr auto direct = static_cast<std::size_t>(LightLayer::direct), diffuse = static_cast<std::size_t>(LightLayer::diffuse),
                  uniform = static_cast<std::size_t>(LightLayer::uniform);
   const float on_level = light_->on_level()[diffuse];
-  const std::vector<PacketHorizon::Row>&sums = packet.rows.light, &lost = packet.rows.lost;
+  const std::span<const PacketHorizon::Row> sums = packet.light, lost = packet.rows.lost;
   LightParts parts{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
     const float diffuse_sky = with_the_sky_of(packet.sky.svf[l], sums[uniform][l], sums[diffuse][l], on_level);
@@ -288,7 +299,7 @@ FurtherQuantities::Lanes FurtherQuantities::total_light(const ProfiledPacket& pa
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
     const float beside_profile = parts.beside_profile[l] * light_->diffuse_of_totals()[total];
     column[l] =
-        std::max(0.0F, packet.rows.light[layer][l] + beside_profile - packet.rows.lost[layer][l]) + reflected(packet, l, layer);
+        std::max(0.0F, packet.light[layer][l] + beside_profile - packet.rows.lost[layer][l]) + reflected(packet, l, layer);
   }
   return column;
 }
@@ -320,7 +331,7 @@ void FurtherQuantities::add_illuminance(const ProfiledPacket& packet, QuantityCo
 void FurtherQuantities::add_sky_component(const ProfiledPacket& packet, QuantityColumns& columns) const {
   constexpr auto overcast = static_cast<std::size_t>(LightLayer::overcast),
                  uniform = static_cast<std::size_t>(LightLayer::uniform);
-  const std::vector<PacketHorizon::Row>& sums = packet.rows.light;
+  const std::span<const PacketHorizon::Row> sums = packet.light;
   Lanes column{};
   for (std::size_t l = 0; l < packet.receivers.count; ++l) {
     const float sky = with_the_sky_of(packet.sky.svf[l], sums[uniform][l], sums[overcast][l], light_->on_level()[overcast]);

@@ -175,7 +175,9 @@ HorizonJumps::SkyAbove HorizonEngine::sky_above(const PacketHorizon& horizon, co
   if (jump_places_ == JumpPlaces::between_azimuths) return {horizon.sky_above(weight_, receivers), {}};
   if (!profile_) return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends);
   profile_above(horizon, receivers);
-  return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends, profile_->sky);
+  HorizonJumps::OfAzimuths of_azimuths{.sky = profile_->sky};
+  if (weight_ == SkyWeight::cosine) of_azimuths.for_light = profile_->light_sky;
+  return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends, of_azimuths);
 }
 
 void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers) {
@@ -186,12 +188,11 @@ void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPa
   profile_->sky.resize(weight_ == SkyWeight::cosine ? azimuths_.size() : 0);
   if (profile_rows_.solid_sky) {
     profile_->solid_sky.resize(azimuths_.size());
-    (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, profile_->solid_sky);
+    (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, {.sky = profile_->solid_sky});
   }
-  if (!profile_rows_.light_sky) return;
-  profile_->light_sky.resize(azimuths_.size());
-  (void)jumps_.sky_above(horizon, SkyWeight::cosine, receivers, silhouettes_.upper_ends, profile_->light_sky,
-                         HorizonJumps::least_jump_of_light);
+  profile_->light_sky.resize(profile_rows_.light_sky ? azimuths_.size() : 0);
+  if (!profile_rows_.light_sky || weight_ == SkyWeight::cosine) return;
+  (void)jumps_.sky_above(horizon, SkyWeight::cosine, receivers, silhouettes_.upper_ends, {.for_light = profile_->light_sky});
 }
 
 Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead) {

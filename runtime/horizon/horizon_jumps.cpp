@@ -139,16 +139,22 @@ float mean_sky(BorderOnWay& border, const SkyAtAzimuth& sky, float lower_slope, 
 }  // namespace
 
 HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                               const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths, float least) {
-  if (azimuths_.size() < least_azimuths) return {horizon.sky_above(weight, receivers, of_azimuths), {}};
+                                               const BorderEnds& ends, const OfAzimuths& of_azimuths) {
+  const auto [of_sky, of_light] = of_azimuths;
   SkyAbove above{horizon.sky_above(weight, receivers, sky_), {}};
-  std::copy_n(sky_.begin(), of_azimuths.size(), of_azimuths.begin());
+  std::copy_n(sky_.begin(), of_sky.size(), of_sky.begin());
+  std::copy_n(sky_.begin(), of_light.size(), of_light.begin());
+  if (azimuths_.size() < least_azimuths) return above;
+  const float least = of_light.empty() ? least_jump : least_jump_of_light;
   for (const SkyJump& jump : horizon.find_jumps(sky_, least, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, ends, least});
+      if (!of_light.empty()) of_light[correction.azimuth][lane] += correction.sky;
+      const float of_rows = std::abs(sky_[jump.azimuth][lane] - sky_[after(jump.azimuth)][lane]);
+      if (!(of_rows > least_jump) || correction.jump < least_jump) continue;
       above.correction[lane] += correction.sky;
-      if (!of_azimuths.empty()) of_azimuths[correction.azimuth][lane] += correction.sky;
+      if (!of_sky.empty()) of_sky[correction.azimuth][lane] += correction.sky;
     }
   for (std::size_t l = 0; l < above.sky.size(); ++l) {
     above.correction[l] /= static_cast<float>(azimuths_.size());
@@ -159,7 +165,7 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
 
 HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const {
   const auto& [horizon, weight, receivers, ends, least] = seen;
-  const std::size_t next = azimuth + 1 < azimuths_.size() ? azimuth + 1 : 0;
+  const std::size_t next = after(azimuth);
   const bool is_here = horizon.row(azimuth)[lane] > horizon.row(next)[lane];
   const std::size_t higher = is_here ? azimuth : next, lower = is_here ? next : azimuth;
   const float higher_slope = horizon.row(higher)[lane], lower_slope = horizon.row(lower)[lane];
@@ -181,7 +187,7 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
   if (lower_sky - higher_sky < least) return {};
   const float correction = mean_sky(border, sky, lower_slope, higher_sky) - half * (higher_sky + lower_sky);
   // (3) One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own
-  return {correction, correction > 0.0F ? higher : lower};
+  return {correction, correction > 0.0F ? higher : lower, lower_sky - higher_sky};
 }
 
 }  // namespace farlod

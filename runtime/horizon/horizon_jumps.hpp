@@ -35,17 +35,23 @@ class HorizonJumps {
   /// The horizon must track its edges, and `ends` be those of their numbers. No correction with fewer than `least_azimuths`.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
                                    const BorderEnds& ends) {
-    return sky_above(horizon, weight, receivers, ends, {});
+    return sky_above(horizon, weight, receivers, ends, OfAzimuths{});
   }
-  /// The same, and the sky of each azimuth by itself, which the corrections of its jumps are a part of; unless there are no rows.
+  /// Take the sky of each azimuth by itself, which the corrections of its jumps are a part of; or nothing, where there are no
+  /// rows.
+  struct OfAzimuths {
+    std::span<PacketHorizon::Row> sky = {}, for_light = {};  ///< with jumps down to least_jump, and to least_jump_of_light
+  };
+  /// The same, and the sky of each azimuth.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                   const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths, float least = least_jump);
+                                   const BorderEnds& ends, const OfAzimuths& of_azimuths);
 
  private:
   /// What one jump of one receiver adds to the sum over the azimuths, and to which of them.
   struct Correction {
     float sky = 0.0F;
     std::size_t azimuth = 0;
+    float jump = 0.0F;  ///< the sky between both horizons
   };
   struct Seen {
     const PacketHorizon& horizon;
@@ -55,6 +61,7 @@ class HorizonJumps {
     float least;
   };
   [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const;
+  [[nodiscard]] std::size_t after(std::size_t azimuth) const { return azimuth + 1 < azimuths_.size() ? azimuth + 1 : 0; }
 
   const AzimuthSampling& azimuths_;
   // Working memory, kept from packet to packet

@@ -96,17 +96,6 @@ template <class N, class R>
 FARLOD_LANES void store(const Vector<N, R>& v, N* to) {
   for (std::size_t r = 0; r < register_count; ++r) std::memcpy(to + r * register_lanes, &v.registers[r], sizeof v.registers[r]);
 }
-/// from[place] of each lane.
-FARLOD_LANES Floats gather(const float* from, const Ints& places) {
-  Floats v;
-#if defined(__AVX512F__)
-  v.registers[0] = __builtin_ia32_gathersiv16sf(FloatRegister{}, from, places.registers[0], -1, sizeof(float));
-#else
-  for (std::size_t r = 0; r < register_count; ++r)
-    for (std::size_t l = 0; l < register_lanes; ++l) v.registers[r][l] = from[places.registers[r][l]];
-#endif
-  return v;
-}
 /// To read lanes one by one.
 template <class N, class R>
 FARLOD_LANES std::array<N, lane_count> to_array(const Vector<N, R>& v) {

@@ -87,28 +87,34 @@ class SortedTurns {
   std::vector<std::pair<double, std::size_t>> turns_;
 };
 
-/// Four strips of the sun's disk, level and of the same area, by the heights of their centroids.
-constexpr double sun_radius_deg = 0.2666;
+/// Four strips of the sun's disk, level and of the same area, by the heights of their centroids in radii of the disk.
+constexpr Angle sun_radius = Angle::degrees(0.2666);
 constexpr std::array<double, 4> strips{-0.648, -0.2005, 0.2005, 0.648};
+/// The sine and cosine of how much higher a strip is than the middle.
+struct StripHeight {
+  explicit StripHeight(double radii) : sine(sin(radii * sun_radius)), cosine(cos(radii * sun_radius)) {}
+  double sine, cosine;
+};
 
 /// Adds the direct light of a position of the sun, of so much energy on a plane that faces it.
 void add_sun(const SunPosition& sun, double energy, const SortedTurns& turns, Parts& parts) {
-  const double turn = sun.azimuth.radians() / (2.0 * pi);
-  const Part all{energy * cos(sun.elevation), energy * sin(sun.elevation)};
-  for (const double strip : strips) {
-    const Angle elevation = sun.elevation + Angle::degrees(strip * sun_radius_deg);
+  static const std::array heights{StripHeight(strips[0]), StripHeight(strips[1]), StripHeight(strips[2]), StripHeight(strips[3])};
+  const double turn = sun.azimuth.radians() / (2.0 * pi), level = cos(sun.elevation), up = sin(sun.elevation);
+  const std::array<SortedTurns::Neighbor, 2> around = turns.around(turn - std::floor(turn));
+  for (const StripHeight& height : heights) {
+    const double sine = up * height.cosine + level * height.sine, cosine = level * height.cosine - up * height.sine;
     // The two intervals whose middles the strip lies between
-    const double slope_share = sin(elevation) / (sin(elevation) + cos(elevation));
-    const double place = std::clamp(slope_share * static_cast<double>(LightTable::last_knot) - 0.5, 0.0,
+    const double place = std::clamp(sine / (sine + cosine) * static_cast<double>(LightTable::last_knot) - 0.5, 0.0,
                                     static_cast<double>(LightTable::last_knot - 1));
     const std::size_t below = std::min(static_cast<std::size_t>(place), LightTable::last_knot - 2);
     const double above_share = place - static_cast<double>(below);
-    for (const SortedTurns::Neighbor& at : turns.around(turn - std::floor(turn)))
-      for (const std::size_t up : {std::size_t{0}, std::size_t{1}}) {
-        const double share = at.share * (up == 1 ? above_share : 1.0 - above_share) / static_cast<double>(strips.size());
-        Part& part = parts[at.azimuth * LightTable::last_knot + below + up];
-        part.along += share * all.along;
-        part.up += share * all.up;
+    for (const SortedTurns::Neighbor& at : around)
+      for (const std::size_t higher : {std::size_t{0}, std::size_t{1}}) {
+        const double share =
+            energy * at.share * (higher == 1 ? above_share : 1.0 - above_share) / static_cast<double>(strips.size());
+        Part& part = parts[at.azimuth * LightTable::last_knot + below + higher];
+        part.along += share * level;
+        part.up += share * up;
       }
   }
 }

@@ -50,8 +50,7 @@ class LightTable {
   LightTable(const Light& light, std::span<const double> turns, bool with_illuminance = false)
       : LightTable(LightOfPeriod(light, with_illuminance), turns) {}
 
-  /// With those of twelve months, and illuminance.
-  static constexpr std::size_t most_pairs = 9;
+  static constexpr std::size_t most_pairs = most_light_pairs;
   [[nodiscard]] std::size_t layers() const { return 2 * pairs_; }
   /// Months that have layers: months_by_name.
   [[nodiscard]] std::span<const unsigned> months() const { return months_; }

@@ -112,9 +112,8 @@ double PerezSky::gradation(double cos_zenith_distance) const {
   return 1.0 + a_ * std::exp(b_ / std::max(cos_zenith_distance, least_cosine));
 }
 
-double PerezSky::indicatrix(Angle sun_distance) const {
-  const double cosine = cos(sun_distance);
-  return 1.0 + c_ * std::exp(d_ * sun_distance.radians()) + e_ * cosine * cosine;
+double PerezSky::indicatrix(const SunDistance& sun_distance) const {
+  return 1.0 + c_ * std::exp(d_ * sun_distance.angle.radians()) + e_ * sun_distance.cosine * sun_distance.cosine;
 }
 
 double overcast_radiance(Angle zenith_distance) { return (1.0 + 2.0 * cos(zenith_distance)) / 3.0; }

@@ -22,6 +22,13 @@ struct SkyIrradiances {
 };
 [[nodiscard]] SkyState sky_state(Angle sun_zenith, const SkyIrradiances& irradiances);
 
+/// From the sun to a place of the sky. Implicit, so that an angle may stand for it.
+struct SunDistance {
+  SunDistance(Angle a = {}) : angle(a), cosine(cos(a)) {}
+  Angle angle;
+  double cosine;
+};
+
 /// The sky of R. Perez, R. Seals and J. Michalsky, All-weather model for sky luminance distribution, Solar Energy 50 (1993) 235,
 /// with the erratum in 51 (1993) 423. Radiances are relative: somebody must scale them.
 ///   (1) l(ζ, γ) = (1 + a exp(b / cos ζ)) (1 + c exp(d γ) + e cos² γ), and no less than 0
@@ -38,7 +45,7 @@ class PerezSky {
   }
   /// The two factors of (1).
   [[nodiscard]] double gradation(double cos_zenith_distance) const;
-  [[nodiscard]] double indicatrix(Angle sun_distance) const;
+  [[nodiscard]] double indicatrix(const SunDistance& sun_distance) const;
 
  private:
   double a_, b_, c_, d_, e_;

@@ -19,21 +19,27 @@ class IndicatrixTable {
  public:
   static constexpr std::size_t parts = 256;
   explicit IndicatrixTable(const PerezSky& sky) {
-    for (std::size_t n = 0; n <= parts; ++n)
-      knots_[n].value = sky.indicatrix(Angle::radians(2.0 * std::asin(static_cast<double>(n) / static_cast<double>(parts))));
+    static const std::array<SunDistance, parts + 1> distances = distances_of_knots();
+    for (std::size_t n = 0; n <= parts; ++n) knots_[n].value = static_cast<float>(sky.indicatrix(distances[n]));
     for (std::size_t n = 0; n < parts; ++n) knots_[n].rise = knots_[n + 1].value - knots_[n].value;
   }
   /// At a place from 0 to `parts`, which is half the chord times `parts`.
-  [[nodiscard]] double at(double place) const {
+  [[nodiscard]] float at(float place) const {
     const auto n = static_cast<std::int32_t>(place);
     const Knot& knot = knots_[static_cast<std::size_t>(n)];
-    return knot.value + (place - static_cast<double>(n)) * knot.rise;
+    return knot.value + (place - static_cast<float>(n)) * knot.rise;
   }
 
  private:
   struct Knot {
-    double value = 0.0, rise = 0.0;  ///< to the next one; none from the last
+    float value = 0.0F, rise = 0.0F;  ///< to the next one; none from the last
   };
+  static std::array<SunDistance, parts + 1> distances_of_knots() {
+    std::array<SunDistance, parts + 1> distances;
+    for (std::size_t n = 0; n <= parts; ++n)
+      distances[n] = SunDistance(Angle::radians(2.0 * std::asin(static_cast<double>(n) / static_cast<double>(parts))));
+    return distances;
+  }
   std::array<Knot, parts + 1> knots_{};
 };
 
@@ -90,20 +96,21 @@ void SkyGrid::add_perez(const SkyState& state, Angle sun_azimuth, double energy)
   const IndicatrixTable indicatrix(sky);
   const double sun_up = cos(state.sun_zenith), sun_level = sin(state.sun_zenith);
   const double east = sun_level * sin(sun_azimuth), north = sun_level * cos(sun_azimuth);
-  std::array<double, azimuths> level{}, places{};
-  for (std::size_t k = 0; k < azimuths; ++k) level[k] = north * cosines_[k] + east * sines_[k];
+  std::array<float, azimuths> level{}, places{};
+  for (std::size_t k = 0; k < azimuths; ++k) level[k] = static_cast<float>(north * cosines_[k] + east * sines_[k]);
   double all = 0.0;
   for (std::size_t n = 0; n < bands; ++n) {
     const Band& band = bands_[n];
     const double gradation = sky.gradation(band.sine);
     // Half the chord of an angle γ is √(½ − ½ cos γ). Roots alone, so that the compiler takes several at once
+    const auto up = static_cast<float>(band.sine * sun_up), cosine = static_cast<float>(band.cosine);
     for (std::size_t k = 0; k < azimuths; ++k) {
-      const double square = 0.5 - 0.5 * (band.sine * sun_up + band.cosine * level[k]);
-      places[k] = static_cast<double>(IndicatrixTable::parts) * std::sqrt(square > 0.0 ? std::min(square, 1.0) : 0.0);
+      const float square = 0.5F - 0.5F * (up + cosine * level[k]);
+      places[k] = static_cast<float>(IndicatrixTable::parts) * std::sqrt(square > 0.0F ? std::min(square, 1.0F) : 0.0F);
     }
     double of_band = 0.0;
     for (std::size_t k = 0; k < azimuths; ++k) {
-      const double radiance = std::max(0.0, gradation * indicatrix.at(places[k]));
+      const double radiance = std::max(0.0, gradation * static_cast<double>(indicatrix.at(places[k])));
       relative_[n * azimuths + k] = radiance;
       of_band += radiance;
     }

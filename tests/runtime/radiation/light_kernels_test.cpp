@@ -57,10 +57,12 @@ struct Packet {
   [[nodiscard]] Rows sums_by(const LightKernels& kernels) const {
     const auto data_of = [](const Rows& rows) { return rows.empty() ? nullptr : rows.front().data(); };
     Rows sums(table.layers());
-    kernels.sum_light({table.even(), table.pairs(), static_cast<std::uint32_t>(table.pair_count()), true, &receivers,
-                       azimuths.view(), receivers.all_look_straight_up(), data_of(sky_from), data_of(gap_from), data_of(gap_to),
-                       data_of(gap_share), data_of(sky)},
-                      sums.front().data());
+    const LitPacket packet{&receivers,        receivers.all_look_straight_up(),
+                           data_of(sky_from), data_of(gap_from),
+                           data_of(gap_to),   data_of(gap_share),
+                           data_of(sky),      sums.front().data()};
+    kernels.sum_light({table.even(), table.pairs(), static_cast<std::uint32_t>(table.pair_count()), true, azimuths.view()},
+                      {&packet, 1});
     return sums;
   }
   /// The light of a layer between two slopes of an azimuth, in steps of a hundredth of the way between the knots of the table.
