@@ -27,8 +27,7 @@ FARLOD_LANES PlaceOfSlope place_of(const Floats& slope) {
   return {knot, place - to_floats(knot)};
 }
 
-/// A LightPair in a register of its own: to load one for each receiver takes a third of the time of gathering its numbers for
-/// sixteen.
+/// A LightPair in a register: for each receiver, one load has what would else be gathered number by number.
 using Quad = float __attribute__((vector_size(sizeof(LightPair))));
 FARLOD_LANES Quad load_pair(const LightPair* pair) {
   Quad q;
@@ -50,7 +49,7 @@ struct LightRead {
   }
 };
 
-/// What is read of some azimuths: where comes first, and then the reading, so that no load waits for the place that it reads.
+/// What is read of some azimuths. The places come first, then the light at all of them: no load waits for its place.
 struct LightReads {
   static constexpr std::size_t azimuths = 8, most_of_azimuth = 5;
 
