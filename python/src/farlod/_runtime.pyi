@@ -38,6 +38,7 @@ class Quantities:
     horizon_distances: bool
     wall_sectors: int
     eye_field_deg: float
+    seen_building: str | None
     svf_total: bool
     svf_total_bounds: bool
     leaf_off: bool
