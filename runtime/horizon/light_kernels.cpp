@@ -76,10 +76,10 @@ struct LightReads {
 /// The receivers of a packet at an azimuth, o and w the parts of their normals along it and up.
 template <bool all_look_up>
 struct LitColumn {
-  LightReads& reads;
-  std::size_t azimuth;
   Floats outward, upward;
   SlopeInterval front;
+  LightReads& reads;
+  std::size_t azimuth;
   float of_turn;  ///< the share of an azimuth
 
   FARLOD_LANES LitColumn(const AzimuthView& azimuths, const ReceiverPacket& receivers, std::size_t k, LightReads& to)
