@@ -120,7 +120,7 @@ class FurtherQuantities {
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
 
-  /// Of a LightTable; none where nothing is made of light.
+  /// The layers of a LightTable; none where nothing is made of light.
   [[nodiscard]] std::size_t light_layers() const { return light_ ? light_->layers() : 0; }
   /// What the receivers of some packets get of each layer of the light, as their profiles say: light[packet][layer][receiver].
   void find_light(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,

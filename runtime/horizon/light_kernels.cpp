@@ -58,17 +58,18 @@ struct LightReads {
   Floats uniform{};  ///< the uniform sky of all reads
 
   /// Adds what all reads give of a pair. `first` is that of the lowest knot of the first azimuth; those of the next knot and of
-  /// the next azimuth lie so far behind it.
+  /// the next azimuth lie so far behind it. They are summed up before they are added, as the uniform sky is: rounding is alike.
   template <bool all_look_up>
   FARLOD_LANES void add_pair(const LightPair* first, std::ptrdiff_t to_knot, std::size_t to_azimuth, Quad* sums) const {
-    for (std::size_t n = 0; n < count; ++n) {
-      const LightRead& read = reads[n];
-      const LightPair* const of_azimuth = first + read.azimuth * to_azimuth;
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const LightPair* const here = of_azimuth + read.knot[l] * to_knot;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      Quad sum{};
+      for (std::size_t n = 0; n < count; ++n) {
+        const LightRead& read = reads[n];
+        const LightPair* const here = first + read.azimuth * to_azimuth + read.knot[l] * to_knot;
         const Quad low = load_pair(here), high = load_pair(here + to_knot);
-        sums[l] += read.factor<all_look_up>(l) * (low + read.part[l] * (high - low));
+        sum += read.factor<all_look_up>(l) * (low + read.part[l] * (high - low));
       }
+      sums[l] += sum;
     }
   }
 };
@@ -194,7 +195,7 @@ FARLOD_LANES void add_azimuths(const LightScene& scene, const LitPacket& packet,
     reads.add_pair<all_look_up>(scene.pairs + n, static_cast<std::ptrdiff_t>(scene.pair_count), to_azimuth, sums.pairs[n + 1]);
 }
 
-/// Of a pair, each of both layers: a level receiver gets what comes from above.
+/// Both layers of a pair. A level receiver gets what comes from above.
 FARLOD_LANES void store_layers(const Quad* pair, bool all_look_up, float* layers) {
   for (std::size_t side = 0; side < 2; ++side)
     for (std::size_t l = 0; l < lane_count; ++l)

@@ -19,7 +19,7 @@ struct alignas(16) LightPair {
   std::array<float, 2> along{}, up{};
 };
 
-/// Of one table: what is even, direct and diffuse, twelve months, and illuminance.
+/// Pairs of one table: what is even, direct and diffuse, twelve months, and illuminance.
 inline constexpr std::size_t most_light_pairs = 9;
 /// Slopes t, 0 or more, lie among knots that are even in t / (1 + t): .22° apart at the horizon and at the zenith, .45° at 45°.
 inline constexpr std::uint32_t last_light_knot = 256;

@@ -117,8 +117,7 @@ void SkyGrid::add_perez(const SkyState& state, Angle sun_azimuth, double energy)
     all += of_band * band.weight;
   }
   if (!(all > 0.0)) return add_uniform(energy);
-  const double scale = energy / all;
-  for (std::size_t n = 0; n < relative_.size(); ++n) radiances_[n] += scale * relative_[n];
+  for (std::size_t n = 0; n < relative_.size(); ++n) radiances_[n] += energy / all * relative_[n];
 }
 
 double SkyGrid::radiance(double turn, Angle elevation) const {
