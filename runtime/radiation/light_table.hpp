@@ -47,8 +47,6 @@ class LightTable {
  public:
   /// Azimuths are shares of the turn, clockwise from true north; each stands for the same part of it.
   LightTable(const LightOfPeriod& light, std::span<const double> turns);
-  LightTable(const Light& light, std::span<const double> turns, bool with_illuminance = false)
-      : LightTable(LightOfPeriod(light, with_illuminance), turns) {}
 
   static constexpr std::size_t most_pairs = most_light_pairs;
   [[nodiscard]] std::size_t layers() const { return 2 * pairs_; }

@@ -44,7 +44,7 @@ Light two_months() {
 /// What is summed up, and a scene of it.
 struct Packet {
   AzimuthSampling azimuths = AzimuthSampling::even(azimuth_count, GridRotation{});
-  LightTable table{two_months(), std::vector<double>(turns())};
+  LightTable table{LightOfPeriod(two_months(), false), std::vector<double>(turns())};
   ReceiverPacket receivers;
   Rows sky_from = Rows(azimuth_count), gap_from, gap_to, gap_share, sky;
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <span>
 
 #include "farlod/point.hpp"
 #include "radiation/perez_sky.hpp"
@@ -30,6 +31,8 @@ Point3d tilted(double tilt_deg, double azimuth_deg) {
   const Angle tilt = Angle::degrees(tilt_deg), azimuth = Angle::degrees(azimuth_deg);
   return {sin(tilt) * sin(azimuth), sin(tilt) * cos(azimuth), cos(tilt)};
 }
+
+LightTable table_of(const Light& light, std::span<const double> at) { return {LightOfPeriod(light, false), at}; }
 
 /// What falls on a plane above a horizon that is even.
 std::vector<float> on_plane(const LightTable& table, const std::vector<double>& at, const Point3d& normal,
@@ -73,7 +76,7 @@ constexpr double of_azimuths = 1e-4;
 
 TEST(LightTable, OfAnIsotropicSkyGivesTiltedPlanesTheirShare) {
   const std::vector<double> at = turns();
-  const LightTable table(some_hours(SkyModel::isotropic), at);
+  const LightTable table = table_of(some_hours(SkyModel::isotropic), at);
   EXPECT_NEAR(table.on_level()[diffuse], 0.6, 1e-6);
   for (const double tilt : {0.0, 20.0, 45.0, 70.0, 90.0}) {
     const std::vector<float> sums = on_plane(table, at, tilted(tilt, 33.0));
@@ -86,7 +89,7 @@ TEST(LightTable, OfAnIsotropicSkyGivesTiltedPlanesTheirShare) {
 
 TEST(LightTable, OfABasinIsotropicIsTheSquareOfItsCosine) {
   const std::vector<double> at = turns(8);
-  const LightTable table(some_hours(SkyModel::isotropic), at);
+  const LightTable table = table_of(some_hours(SkyModel::isotropic), at);
   for (const double horizon_deg : {5.0, 30.0, 45.0, 80.0, 89.0})
     EXPECT_NEAR(on_plane(table, at, {0, 0, 1}, std::tan(horizon_deg * pi / 180.0))[uniform],
                 std::pow(std::cos(horizon_deg * pi / 180.0), 2), 2e-5)
@@ -116,7 +119,7 @@ TEST(LightTable, OfThePerezSkyIsItsQuadrature) {
   const std::vector<double> at = turns();
   for (const LightInterval& interval : some_hours(SkyModel::perez).intervals) {
     Light light{{interval}};
-    const LightTable table(light, at);
+    const LightTable table = table_of(light, at);
     EXPECT_NEAR(table.on_level()[diffuse], interval.diffuse_w_m2 / 1000.0, 1e-6);
     for (const double tilt : {0.0, 30.0, 60.0, 90.0})
       for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
@@ -131,7 +134,7 @@ TEST(LightTable, OfThePerezSkyIsItsQuadrature) {
 
 TEST(LightTable, OfTheSunIsTheCosineOfEachPlane) {
   const std::vector<double> at = turns();
-  const LightTable table(Light{{hour(170.3, 41.0, 800.0, 0.0)}}, at);
+  const LightTable table = table_of(Light{{hour(170.3, 41.0, 800.0, 0.0)}}, at);
   const Point3d sun{std::cos(41.0 * pi / 180) * std::sin(170.3 * pi / 180),
                     std::cos(41.0 * pi / 180) * std::cos(170.3 * pi / 180), std::sin(41.0 * pi / 180)};
   for (const double tilt : {0.0, 30.0, 60.0, 90.0})
@@ -162,7 +165,7 @@ LightInterval hour_of_positions(std::size_t count) {
 TEST(LightTable, TheSunGoesOnBetweenItsPositions) {
   // At each azimuth, four positions of an hour tell what sixty do; by themselves they would leave most azimuths without sun
   const std::vector<double> at = turns();
-  const LightTable few(Light{{hour_of_positions(4)}}, at), many(Light{{hour_of_positions(60)}}, at);
+  const LightTable few = table_of(Light{{hour_of_positions(4)}}, at), many = table_of(Light{{hour_of_positions(60)}}, at);
   for (std::size_t k = 0; k < at.size(); ++k) {
     std::array<LightPair, LightTable::most_pairs> of_few{}, of_many{};
     few.add_above(k, LightTable::place_of(0.0F), 0.0F, 1.0F, of_few.data());
@@ -181,7 +184,7 @@ TEST(LightTable, TheSunGoesOnFromStepToStepAndNotFromDayToDay) {
     return Light{{first, second}};
   };
   const auto lit_azimuths = [&](const Light& light) {
-    const LightTable table(light, at);
+    const LightTable table = table_of(light, at);
     std::size_t lit = 0;
     for (std::size_t k = 0; k < at.size(); ++k) {
       std::array<LightPair, LightTable::most_pairs> sums{};
@@ -197,16 +200,16 @@ TEST(LightTable, TheSunGoesOnFromStepToStepAndNotFromDayToDay) {
 TEST(LightTable, TheEnergyOfAnHourIsKeptWhileTheSunRises) {
   LightInterval interval = hour(90, 2, 300, 30);
   interval.sun = {{Angle::degrees(88), Angle::degrees(-0.5), 0.5}, {Angle::degrees(90), Angle::degrees(2), 0.5}};
-  const LightTable table(Light{{interval}}, turns());
+  const LightTable table = table_of(Light{{interval}}, turns());
   EXPECT_NEAR(table.on_level()[direct], 0.3 * std::sin(2.0 * pi / 180.0), 1e-7);
   EXPECT_NEAR(table.on_level()[diffuse], 0.03, 1e-7);
 }
 
 TEST(LightTable, MonthsHaveTheLightOfTheirHours) {
   Light light = some_hours(SkyModel::perez);
-  const LightTable all(light, turns());
+  const LightTable all = table_of(light, turns());
   light.by_month = true;
-  const LightTable table(light, turns());
+  const LightTable table = table_of(light, turns());
   ASSERT_EQ(std::vector<unsigned>(table.months().begin(), table.months().end()), (std::vector<unsigned>{1, 2, 6, 11}));
   const std::array<double, 4> diffuse_of_month{0.09, 0.2, 0.25, 0.06};
   for (std::size_t n = 0; n < diffuse_of_month.size(); ++n) EXPECT_NEAR(table.diffuse_of_totals()[n], diffuse_of_month[n], 1e-6);
@@ -227,11 +230,11 @@ TEST(LightTable, OfManyHoursIsTheSumOfEach) {
   const Point3d normal = tilted(60.0, 110.0);
   double direct_sum = 0.0, diffuse_sum = 0.0;
   for (const LightInterval& interval : light.intervals) {
-    const std::vector<float> sums = on_plane(LightTable(Light{{interval}}, at), at, normal);
+    const std::vector<float> sums = on_plane(table_of(Light{{interval}}, at), at, normal);
     direct_sum += sums[direct];
     diffuse_sum += sums[diffuse];
   }
-  const std::vector<float> sums = on_plane(LightTable(light, at), at, normal);
+  const std::vector<float> sums = on_plane(table_of(light, at), at, normal);
   EXPECT_NEAR(sums[direct], direct_sum, 1e-5);
   EXPECT_NEAR(sums[diffuse], diffuse_sum, 1e-5);
 }
@@ -272,14 +275,14 @@ TEST(LightTable, OtherStepsHaveSkiesOfTheirOwn) {
   const std::vector<LightInterval> later = steps_from(40'000, {10.0});
   steps.insert(steps.end(), later.begin(), later.end());
   const auto on_tilted = [&](std::vector<LightInterval> some) {
-    return on_plane(LightTable(Light{std::move(some)}, at), at, normal)[diffuse];
+    return on_plane(table_of(Light{std::move(some)}, at), at, normal)[diffuse];
   };
   EXPECT_NEAR(on_tilted(steps), on_tilted({steps[0], steps[1], steps[2]}) + on_tilted({steps[3]}) + on_tilted(later), 1e-6);
 }
 
 TEST(LightTable, AWallInTheOpenHasTheVerticalSkyComponentOfTheCode) {
   const std::vector<double> at = turns();
-  const LightTable table(Light{}, at);
+  const LightTable table = table_of(Light{}, at);
   EXPECT_NEAR(table.on_level()[overcast], 1.0, 1e-6);
   // 3/14 + 4/7π: "just under 40 %" (BRE 209)
   EXPECT_NEAR(on_plane(table, at, tilted(90, 10))[overcast], 3.0 / 14.0 + 4.0 / (7.0 * pi), of_azimuths);
