@@ -44,8 +44,9 @@ void add_place(const PackageDescription& d, AlignedText& text) {
   text.add("CRS", crs_text(d));
   if (d.buildings_projected) text.add("Buildings", text_of(*d.buildings_projected));
   text.add("Extent", text_of(d.outline_projected) + ", all cells");
-  text.add("Streets", fmt::format("bearing {:.2f}° from true north, {:.2f}° from grid north (convergence {:+.2f}°)",
-                                  (d.grid_bearing + d.convergence).degrees(), d.grid_bearing.degrees(), d.convergence.degrees()));
+  text.add(d.buildings > 0 ? "Streets" : "Axes",
+           fmt::format("bearing {:.2f}° from true north, {:.2f}° from grid north (convergence {:+.2f}°)",
+                       (d.grid_bearing + d.convergence).degrees(), d.grid_bearing.degrees(), d.convergence.degrees()));
 }
 
 void add_grid(const PackageFacts& facts, AlignedText& text) {

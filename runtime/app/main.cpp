@@ -24,6 +24,7 @@
 #include "app/region_of_package.hpp"
 #include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
+#include "app/run_notes.hpp"
 #include "app/run_report.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
@@ -290,7 +291,7 @@ WrittenRun evaluate(SvfOptions options) {
   written.open_s = open_s;
   add_light(light, box, written);
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
-  add_notes_of_package(package, options, written);
+  for (std::string& note : notes_of_run(package, options, written.summary)) written.notes.push_back(std::move(note));
   if (options.shard) kept.finish();
   if (!options.writes()) return written;
   if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);

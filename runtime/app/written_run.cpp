@@ -217,30 +217,6 @@ void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles&
   if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
 }
 
-/// What to tell of crowns that nothing which was asked for knows of.
-std::optional<std::string> note_of_ignored_crowns(const Package& package, const SvfOptions& options) {
-  const Quantities& further = options.evaluation.further;
-  if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.any_seen_by_rays()) return std::nullopt;
-  const std::uint64_t crowns = inventory_of(package).crowns.all();
-  if (crowns == 0) return std::nullopt;
-  return fmt::format(
-      "The city has {} crowns of trees, and what was asked for looks through them: --quantity svf_total counts them.",
-      with_commas(crowns));
-}
-
-/// What to tell of far maps that only rays can look up, which is not what the engines auto and horizon are asked for.
-std::optional<std::string> note_of_box_maps(const PackageDescription& city, const SvfOptions& options, std::size_t rays) {
-  constexpr std::size_t quiet_rays = 20'000;  // the root mean square of their noise is .00025
-  const Engine engine = options.evaluation.engine;
-  if (city.far_map_kind != "box" || engine == Engine::exact) return std::nullopt;
-  const std::string advice = fmt::format(
-      "their noise adds to the error of the map (--rays {} makes it small, farlod-pack --far-map horizon needs no rays)",
-      quiet_rays);
-  return fmt::format("The far maps are of the kind box, which have no horizons: {} rays a receiver answered{}{}.",
-                     with_commas(rays), engine == Engine::horizon ? ", whatever the engine" : "",
-                     rays < quiet_rays ? ", and " + advice : "");
-}
-
 /// What to tell of how the points were read, and of those that have no answer.
 std::vector<std::string> notes_of_points(const NamedPoints& named, const PointAnswers& answers, const PackageDescription& city) {
   std::vector<std::string> notes = named.notes;
@@ -287,13 +263,6 @@ void require_answers(const EvaluationSummary& summary, const SvfOptions& options
                                summary.no_data, beyond > 0 ? fmt::format(", {} beyond the city", beyond) : ""));
   if (beyond > 0) throw NoAnswer(fmt::format("{}: none of {} lies in the city. {}", nothing, beyond, place));
   throw NoAnswer(fmt::format("{}: there is nothing of what was asked for. {}", nothing, place));
-}
-
-void add_notes_of_package(const Package& package, const SvfOptions& options, WrittenRun& written) {
-  for (const std::optional<std::string>& note :
-       std::array{note_of_ignored_crowns(package, options),
-                  note_of_box_maps(package.description(), options, written.summary.accuracy.rays)})
-    if (note) written.notes.push_back(*note);
 }
 
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {

@@ -66,9 +66,6 @@ class NoAnswer : public InputError {
 /// Throws NoAnswer where no receiver has an answer: says where the receivers are, and where the city is.
 void require_answers(const EvaluationSummary& summary, const SvfOptions& options, const PackageDescription& city);
 
-/// What to tell of a package that does not have, or has more than, what was asked for.
-void add_notes_of_package(const Package& package, const SvfOptions& options, WrittenRun& written);
-
 /// Calls `work`, and returns its seconds.
 template <class Work>
 double seconds_of(const Work& work) {

@@ -291,7 +291,7 @@ TEST_F(PackedTown, SummaryTellsTheFiguresOfTheMap) {
   EXPECT_NEAR(svf.at("median"), all[(all.size() - 1) / 2], 5e-5 + rounding);
 }
 
-TEST_F(PackedTown, ARunSaysThatRaysLookedUpMapsOfTheKindBox) {
+TEST_F(PackedTown, ARunSaysThatFewRaysAnswered) {
   const auto told_by = [&](const std::string& package, const std::string& options) {
     const std::string command = "farlod-svf " + package + " -o o.csv --summary s.json --at " + a_place() + " " + options;
     const std::string printed = folder.run(command).out;
@@ -300,14 +300,17 @@ TEST_F(PackedTown, ARunSaysThatRaysLookedUpMapsOfTheKindBox) {
     return notes;
   };
   folder.must("farlod-pack town.geojson -o box.farlod --far-map box");
-  const auto box = HasSubstr("of the kind box, which have no horizons"), more_rays = HasSubstr("--rays 20000");
-  const auto thousand = HasSubstr(": 1,000 rays a receiver answered");
+  const auto box = HasSubstr("of the kind box, which have no horizons"), more_rays = HasSubstr("--rays 20000"),
+             thousand = HasSubstr("1,000 rays a receiver answered");
   EXPECT_THAT(told_by("box.farlod", ""), testing::ElementsAre(testing::AllOf(box, thousand, more_rays)));
   EXPECT_THAT(told_by("box.farlod", "--engine horizon"),
               testing::ElementsAre(testing::AllOf(box, thousand, HasSubstr("whatever the engine"), more_rays)));
   EXPECT_THAT(told_by("box.farlod", "--rays 20000"), testing::ElementsAre(testing::AllOf(box, Not(more_rays))));
-  EXPECT_THAT(told_by("box.farlod", "--engine exact"), testing::IsEmpty());
-  EXPECT_THAT(told_by("a.farlod", "--engine horizon"), testing::IsEmpty());
+  const auto few = testing::ElementsAre(testing::AllOf(thousand, more_rays, Not(box)));
+  for (const std::string package : {"box.farlod", "a.farlod"}) EXPECT_THAT(told_by(package, "--engine exact"), few) << package;
+  EXPECT_THAT(told_by("a.farlod", "--engine rays"), few);
+  for (const std::string engine : {"horizon", "exact --rays 20000", "exact --bounds"})
+    EXPECT_THAT(told_by("a.farlod", "--engine " + engine), testing::IsEmpty()) << engine;
 }
 
 TEST_F(PackedTown, SummaryNamesTheEngine) {

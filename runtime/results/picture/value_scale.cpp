@@ -21,7 +21,7 @@ struct BandTitle {
 };
 
 /// Other bands are called by their names alone.
-constexpr std::array<BandTitle, 15> titles{{{"svf", "Sky view factor"},
+constexpr std::array<BandTitle, 17> titles{{{"svf", "Sky view factor"},
                                             {"svf_solid", "Solid angle share of the sky"},
                                             {"svf_total", "Sky view factor with trees"},
                                             {"sunlit_h", "Sunshine, were the sky clear"},
@@ -35,7 +35,9 @@ constexpr std::array<BandTitle, 15> titles{{{"svf", "Sky view factor"},
                                             {"hidden_far", "Sky hidden by what is far alone"},
                                             {"share_sky", "Share of the view that is sky"},
                                             {"share_vegetation", "Share of the view that is trees"},
-                                            {"share_building", "Share of the view that is solid"}}};
+                                            {"share_building", "Share of the view that is solid"},
+                                            {"view_building", "Share of the view that the building fills"},
+                                            {"sees_building", "Where anything of the building is seen"}}};
 
 struct UnitSigns {
   const char *unit, *sign, *words;  ///< `unit` in the words of UDUNITS
@@ -99,7 +101,9 @@ ValueScale scale_of(const Band& band, double max_value) {
     const bool is_of_sky = band.name == "svf" || band.name == "svf_solid" || band.name == "svf_total";
     scale.subtitle = is_of_sky ? "No unit: 0 hidden, 1 open sky" : "No unit";
   }
-  if (band.unit != "1" && max_value > 0.0) scale.end = two_digits_of(max_value);
+  // One building fills little of most views
+  const bool is_share_of_all = band.unit == "1" && band.name != "view_building";
+  if (!is_share_of_all && max_value > 0.0) scale.end = two_digits_of(max_value);
   return scale;
 }
 

@@ -201,6 +201,7 @@ TEST(ValueScale, SharesEndAtOneAndOtherValuesAtTheirGreatest) {
   EXPECT_EQ(scale_of({"svf_total", "1", ""}, 0.3).end, 1.0);
   EXPECT_EQ(scale_of({"svf_total", "1", ""}, 0.3).title, "Sky view factor with trees (svf_total)");
   EXPECT_EQ(scale_of({"svfN", "1", ""}, 0.3).title, "svfN");
+  EXPECT_EQ(scale_of({"view_building", "1", ""}, 0.0312).end, 0.032) << "one building fills little of most views";
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).end, 1300.0);
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1300.0).end, 1300.0);
   EXPECT_EQ(scale_of({"irradiation", "kW h m-2", ""}, 1234.5).unit, "kWh/m²");
