@@ -87,14 +87,6 @@ TEST_F(PackedTown, ThePictureOfTheSkyHasThePathsOfTheSun) {
 constexpr const char* day_of_weather =
     "time,global,direct,diffuse\n2026-03-20T10:00Z,500,500,200\n2026-03-20T11:00Z,530,500,200\n2026-03-20T12:00Z,520,500,200\n";
 
-TEST_F(PackedTown, ARunOfLightOnRoofsSaysThatPixelsAreLevel) {
-  const auto level = testing::HasSubstr("Pixels are level, also on pitched roofs");
-  const std::string light = "farlod-svf a.farlod -o o.tif --grid 20 --period 2026-06-21 --quantity irradiation";
-  EXPECT_THAT(folder.run(light + " --on-surface").out, level);
-  EXPECT_THAT(folder.run(light).out, Not(level)) << "no pixel is on a roof";
-  EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.tif --grid 20 --on-surface").out, Not(level));
-}
-
 TEST_F(PackedTown, IrradiationOfAWeatherFileIsThatOfItsHours) {
   folder.write("day.csv", day_of_weather);
   const Point3d open{town_middle.x, town_middle.y, 5000.0};

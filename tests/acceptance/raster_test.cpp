@@ -30,6 +30,14 @@ double mean_difference(const RasterFile& a, const RasterFile& b) {
   return sum / count;
 }
 
+TEST_F(PackedTown, ARunOfLightOnRoofsSaysThatPixelsAreLevel) {
+  const auto level = testing::HasSubstr("Pixels are level, also on pitched roofs");
+  const std::string light = "farlod-svf a.farlod -o o.tif --grid 20 --period 2026-06-21 --quantity irradiation";
+  EXPECT_THAT(folder.run(light + " --on-surface").out, level);
+  EXPECT_THAT(folder.run(light).out, testing::Not(level)) << "no pixel is on a roof";
+  EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.tif --grid 20 --on-surface").out, testing::Not(level));
+}
+
 TEST_F(PackedTown, PixelsLieWhereTheBuildingsAre) {
   folder.must("farlod-svf a.farlod -o o.asc --grid 4");
   const RasterFile map = raster("o.asc");

@@ -257,7 +257,7 @@ TEST(LightTable, StepsOfAQuarterOfAnHourShareTheirSky) {
   LightInterval quarter = steps[1];
   quarter.sun = {steps[0].sun[0], steps[1].sun[0], steps[2].sun[0]};
   quarter.hours = 0.25;
-  const LightTable of_steps(Light{steps}, at), of_quarter(Light{{quarter}}, at);
+  const LightTable of_steps = table_of(Light{steps}, at), of_quarter = table_of(Light{{quarter}}, at);
   for (const double azimuth_deg : {10.0, 120.0, 200.0}) {
     const Point3d normal = tilted(70.0, azimuth_deg);
     EXPECT_NEAR(on_plane(of_steps, at, normal)[diffuse], on_plane(of_quarter, at, normal)[diffuse], 1e-7) << azimuth_deg;
