@@ -50,6 +50,18 @@ std::vector<CellReceivers> receivers_of(const PackageReader& package, std::span<
   return result;
 }
 
+void evaluate(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites, const SkyAnswers& answers) {
+  const SkyEvaluator evaluator(package, settings);
+  const std::vector<CellReceivers> receivers = receivers_of(package, sites);
+  oneapi::tbb::parallel_for(std::size_t{0}, receivers.size(), [&](std::size_t n) { evaluator.evaluate(receivers[n], answers); });
+}
+
+BoundedSky bounded_sky(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites) {
+  std::vector<float> svf(sites.size()), low(svf), high(svf);
+  evaluate(package, settings, sites, SkyAnswers(svf, low, high));
+  return {{svf.begin(), svf.end()}, {low.begin(), low.end()}, {high.begin(), high.end()}};
+}
+
 }  // namespace
 
 std::vector<Site> ground_sites(const PackageReader& package, std::span<const Cell> cells, std::size_t count) {
@@ -95,24 +107,27 @@ std::vector<Cell> cells_of(const Grid& grid, std::span<const Site> sites) {
   return cells;
 }
 
-SkyFigures sky_at(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites) {
-  const SkyEvaluator evaluator(package, settings);
-  const std::vector<CellReceivers> receivers = receivers_of(package, sites);
-  std::vector<float> svf(sites.size()), low(svf), high(svf);
-  oneapi::tbb::parallel_for(std::size_t{0}, receivers.size(),
-                            [&](std::size_t n) { evaluator.evaluate(receivers[n], SkyAnswers(svf, low, high)); });
-  return {{svf.begin(), svf.end()}, {low.begin(), low.end()}, {high.begin(), high.end()}};
+std::vector<double> sky_at(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites) {
+  std::vector<float> svf(sites.size());
+  evaluate(package, settings, sites, SkyAnswers(svf));
+  return {svf.begin(), svf.end()};
 }
 
-BoundsSummary summarize_bounds(const SkyFigures& figures, std::span<const double> exact, std::size_t rays) {
+BoundedSky bounds_at(const PackageReader& package, std::span<const Site> sites) { return bounded_sky(package, {}, sites); }
+
+std::vector<double> true_sky_at(const PackageReader& package, std::span<const Site> sites) {
+  return bounded_sky(package, {.engine = Engine::exact}, sites).svf;
+}
+
+BoundsSummary summarize_bounds(const BoundedSky& bounds, std::span<const double> truth) {
+  // Of the true value, and of the floats that bounds are
+  constexpr double rounding = 2e-5;
   BoundsSummary summary;
-  // A ray that grazes an edge may go either way: coordinates are floats
-  const double grazing = 1.5 / static_cast<double>(rays);
-  for (std::size_t n = 0; n < exact.size(); ++n) {
-    const double width = figures.high[n] - figures.low[n];
-    summary.mean_width += width / static_cast<double>(exact.size());
+  for (std::size_t n = 0; n < truth.size(); ++n) {
+    const double width = bounds.high[n] - bounds.low[n];
+    summary.mean_width += width / static_cast<double>(truth.size());
     summary.max_width = std::max(summary.max_width, width);
-    if (exact[n] < figures.low[n] - grazing || exact[n] > figures.high[n] + grazing) ++summary.outside;
+    if (truth[n] < bounds.low[n] - rounding || truth[n] > bounds.high[n] + rounding) ++summary.outside;
   }
   return summary;
 }
@@ -124,9 +139,12 @@ bool is_required(double cell_edge_m, int neighborhood) {
   return (cell_edge_m == 50.0 || cell_edge_m == 100.0) && neighborhood == 3;
 }
 
-/// Exact answers of all sites.
+/// What all sites of a kind see: by the rays of the reference, and truly.
+struct SeenSky {
+  std::vector<double> by_rays, truly;
+};
 struct Reference {
-  std::vector<double> ground, roofs, facades;
+  SeenSky ground, roofs, facades;
 };
 
 /// Studies one city with one cell edge.
@@ -154,26 +172,26 @@ class CellEdgeStudy {
   }
 
  private:
-  [[nodiscard]] static SkyFigures figures(const SitePackage& package, Engine engine, std::size_t rays,
-                                          std::span<const Site> sites) {
+  [[nodiscard]] static std::vector<double> sky(const SitePackage& package, Engine engine, std::size_t rays,
+                                               std::span<const Site> sites) {
     return sky_at(package.package(), {engine, SkyWeight::cosine, rays, std::nullopt}, sites);
   }
 
   [[nodiscard]] FarFieldErrors errors(const SitePackage& box, const SitePackage& horizon, std::span<const Site> sites,
-                                      std::span<const double> exact_of_all) const {
-    const std::span<const double> exact = exact_of_all.first(sites.size());
+                                      const SeenSky& of_all) const {
+    const std::span<const double> exact = std::span(of_all.by_rays).first(sites.size());
     const std::size_t rays = extent_.reference_rays;
-    const SkyFigures ours = figures(horizon, Engine::rays, rays, sites);
-    return {summarize_errors(figures(box, Engine::near_only, rays, sites).svf, exact),
-            summarize_errors(figures(box, Engine::rays, rays, sites).svf, exact), summarize_errors(ours.svf, exact),
-            summarize_bounds(ours, exact, rays)};
+    return {summarize_errors(sky(box, Engine::near_only, rays, sites), exact),
+            summarize_errors(sky(box, Engine::rays, rays, sites), exact),
+            summarize_errors(sky(horizon, Engine::rays, rays, sites), exact),
+            summarize_bounds(bounds_at(horizon.package(), sites), std::span(of_all.truly).first(sites.size()))};
   }
 
   [[nodiscard]] std::vector<RaysErrors> errors_of_fewer_rays(const SitePackage& horizon, std::span<const Site> ground) const {
     std::vector<RaysErrors> result;
     for (const std::size_t rays : {std::size_t{1000}, std::size_t{4000}})
-      result.push_back({rays, summarize_errors(figures(horizon, Engine::rays, rays, ground).svf,
-                                               std::span(exact_.ground).first(ground.size()))});
+      result.push_back({rays, summarize_errors(sky(horizon, Engine::rays, rays, ground),
+                                               std::span(exact_.ground.by_rays).first(ground.size()))});
     return result;
   }
 
@@ -186,7 +204,9 @@ class CellEdgeStudy {
 Reference exact_answers(const CutCity& cut, const StudySites& sites, const Extent& extent) {
   const SitePackage nothing_baked = without_far_maps(cut);
   const SkySettings exact{Engine::exact, SkyWeight::cosine, extent.reference_rays, std::nullopt};
-  const auto ask = [&](std::span<const Site> some) { return sky_at(nothing_baked.package(), exact, some).svf; };
+  const auto ask = [&](std::span<const Site> some) {
+    return SeenSky{sky_at(nothing_baked.package(), exact, some), true_sky_at(nothing_baked.package(), some)};
+  };
   return {ask(sites.ground), ask(sites.roofs), ask(sites.facades)};
 }
 

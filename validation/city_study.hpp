@@ -34,18 +34,23 @@ struct Site {
 /// The cells in which sites stand, in ascending order.
 [[nodiscard]] std::vector<Cell> cells_of(const Grid& grid, std::span<const Site> sites);
 
-struct SkyFigures {
+/// Sky view factors of sites.
+[[nodiscard]] std::vector<double> sky_at(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites);
+
+/// What `--bounds` answers.
+struct BoundedSky {
   std::vector<double> svf, low, high;
 };
-/// Sky view factors of sites, and their certain bounds.
-[[nodiscard]] SkyFigures sky_at(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites);
+[[nodiscard]] BoundedSky bounds_at(const PackageReader& package, std::span<const Site> sites);
+/// The sky that the triangles of the whole city leave open: no rays.
+[[nodiscard]] std::vector<double> true_sky_at(const PackageReader& package, std::span<const Site> sites);
 
-/// How wide certain intervals are, and how many of the exact answers with the same rays are beyond them by more than a ray.
+/// How wide bounds are, and how many of the true values are beyond them by more than rounding.
 struct BoundsSummary {
   double mean_width = 0.0, max_width = 0.0;
   std::size_t outside = 0;
 };
-[[nodiscard]] BoundsSummary summarize_bounds(const SkyFigures& figures, std::span<const double> exact, std::size_t rays);
+[[nodiscard]] BoundsSummary summarize_bounds(const BoundedSky& bounds, std::span<const double> truth);
 
 /// How much is done.
 struct Extent {
@@ -74,7 +79,7 @@ struct StudySites {
 /// Errors against the engine `exact` with the same rays: those of the far field alone.
 struct FarFieldErrors {
   ErrorSummary dropped, box, horizon;
-  BoundsSummary bounds;  ///< of the kind `horizon`
+  BoundsSummary bounds;  ///< of what users get with the kind `horizon`
 };
 
 /// What rays, as many as a user takes, add to the error of the far field.

@@ -64,7 +64,7 @@ std::vector<Cell> middle_cells(const Grid& grid) {
 
 struct MiddleSites {
   std::vector<Site> ground, facades;
-  std::vector<double> exact_ground, exact_facades;
+  std::vector<double> exact_ground, exact_facades, true_ground;
 };
 
 MiddleSites middle_sites(const CutCity& pieces, std::span<const Cell> cells, const Extent& extent) {
@@ -74,22 +74,22 @@ MiddleSites middle_sites(const CutCity& pieces, std::span<const Cell> cells, con
   MiddleSites sites{ground_sites(package, cells, extent.fewer_receivers),
                     surface_sites(package, cells, SurfaceChoice::walls, extent.fewer_receivers),
                     {},
+                    {},
                     {}};
-  sites.exact_ground = sky_at(package, exact, sites.ground).svf;
-  sites.exact_facades = sky_at(package, exact, sites.facades).svf;
+  sites.exact_ground = sky_at(package, exact, sites.ground);
+  sites.exact_facades = sky_at(package, exact, sites.facades);
+  sites.true_ground = true_sky_at(package, sites.ground);
   return sites;
 }
 
 SettingRow measure(const Variation& variation, const SitePackage& baked, const MiddleSites& sites, std::size_t rays) {
   const SkySettings ours{Engine::rays, SkyWeight::cosine, rays, std::nullopt};
-  const SkyFigures ground = sky_at(baked.package(), ours, sites.ground);
-  const SkyFigures facades = sky_at(baked.package(), ours, sites.facades);
   return {variation.setting,
           variation.value,
           is_default(variation.far_map.horizon),
-          summarize_errors(ground.svf, sites.exact_ground),
-          summarize_errors(facades.svf, sites.exact_facades),
-          summarize_bounds(ground, sites.exact_ground, rays),
+          summarize_errors(sky_at(baked.package(), ours, sites.ground), sites.exact_ground),
+          summarize_errors(sky_at(baked.package(), ours, sites.facades), sites.exact_facades),
+          summarize_bounds(bounds_at(baked.package(), sites.ground), sites.true_ground),
           baked.bytes_a_cell(),
           baked.bake_ms_a_cell()};
 }
@@ -99,8 +99,8 @@ std::array<std::vector<double>, 3> ask(const PackageReader& package, SkyWeight w
                                        const StudySites& sites) {
   const SkySettings exact{Engine::exact, weight, rays, std::nullopt};
   const std::size_t ground_count = std::min(sites.ground.size(), sites.roofs.size());
-  return {sky_at(package, exact, std::span(sites.ground).first(ground_count)).svf, sky_at(package, exact, sites.roofs).svf,
-          sky_at(package, exact, sites.facades).svf};
+  return {sky_at(package, exact, std::span(sites.ground).first(ground_count)), sky_at(package, exact, sites.roofs),
+          sky_at(package, exact, sites.facades)};
 }
 
 }  // namespace
