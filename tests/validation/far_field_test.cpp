@@ -53,6 +53,12 @@ void expect_ours_keeps_its_own(const CityStudy& study) {
   EXPECT_LE(study.rows[0].bytes_a_cell, most_bytes_a_cell);
 }
 
+/// Both sides trace the same rays: nothing of their sampling is left. Fewer rays show how much that is.
+void expect_no_error_of_rays(const CityStudy& study) {
+  for (const FarFieldRow& row : study.rows)
+    EXPECT_LT(row.ground.horizon.mean_abs_error, 0.1 * row.ground_rays.front().horizon.mean_abs_error);
+}
+
 void expect_exact_answers_within_the_bounds(const CityStudy& study) {
   for (const FarFieldRow& row : study.rows) EXPECT_EQ(row.ground.bounds.outside, 0U);
   EXPECT_EQ(study.rows[0].roofs->bounds.outside, 0U);
@@ -66,6 +72,7 @@ TEST(FarFieldOfATown, IsAsGoodAsPromised) {
   expect_ours_better_than_the_papers_and_that_than_nothing(study);
   expect_the_papers_map_keeps_the_papers_promise(study);
   expect_ours_keeps_its_own(study);
+  expect_no_error_of_rays(study);
   expect_exact_answers_within_the_bounds(study);
 }
 
