@@ -12,6 +12,7 @@
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_answers.hpp"
+#include "evaluate/view_factors.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/horizon_engine.hpp"
 #include "package/far_map.hpp"
@@ -39,6 +40,8 @@ class FurtherAnswers {
   /// What crowns do to the sky is found for each group. The values of canopies are stored for what is drawn, and otherwise their
   /// places are left out.
   void draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);
+  /// View factors are found of each group: no ray is traced above the horizons of profiles.
+  void look_around(const SeenScene& scene, const SkyDirections& directions, SkyWeight weight, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
   /// How many rays were traced against the whole city so far.
   [[nodiscard]] std::uint64_t retraced_rays() const { return canopies_ ? canopies_->retraced_rays() : 0; }
@@ -63,6 +66,7 @@ class FurtherAnswers {
   std::unique_ptr<CanopyAnswers> canopies_;
   std::vector<SkiesOfPacket> skies_;  ///< of each packet, as the next one
   std::span<const CanopyAnswers::Answers> of_canopies_;
+  std::optional<ViewFactors> views_;
   std::vector<PacketHorizon::Row> light_;  ///< of the packets of a group, as find_light gives it
   ProfiledPacket::Rows rows_;
   std::vector<float> values_;

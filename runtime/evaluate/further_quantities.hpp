@@ -100,6 +100,7 @@ class FurtherQuantities {
     return size_ > crowns_.count + shadow_patches_.count + views_.all.count + views_.below.count + views_.cube.count +
                        views_.sphere.count + views_.eye.count + views_.building.count;
   }
+  [[nodiscard]] bool needs_view_factors() const { return quantities_.view_factors || quantities_.view_factors_below; }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
   /// Whether something is made of light, which crowns dim.
   [[nodiscard]] bool needs_dimmed_sky() const { return needs_light() || quantities_.shade || quantities_.sunlit_total; }

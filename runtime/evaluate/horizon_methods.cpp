@@ -108,10 +108,13 @@ class MethodWithHorizons : public SkyMethod {
     certainty.directions = &evaluation_.directions;
     return certainty;
   }
-  void begin_further(FurtherAnswers& further, HorizonEngine& engine, const FarHorizon& far, const CanopyCity* canopy) const {
+  void begin_further(FurtherAnswers& further, HorizonEngine& engine, Cell cell, const FarHorizon& far,
+                     const CanopyCity* canopy) const {
     const FurtherQuantities& wanted = evaluation_.further;
     if (!wanted.empty()) further.listen_to(engine);
     if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far);
+    if (wanted.needs_view_factors())
+      further.look_around(evaluation_.seen_from(cell), evaluation_.directions, evaluation_.settings.weight, evaluation_.stop);
     if (wanted.canopy_columns().count > 0 || (wanted.needs_dimmed_sky() && evaluation_.package.has_crowns()))
       further.draw_canopies(evaluation_.package, certainty_of_canopies(), canopy, evaluation_.stop);
   }
@@ -128,7 +131,7 @@ void MethodWithHorizons::draw(CellGeometry& geometry, PixelHorizon* pixels, cons
   const double share = e.settings.further.svf_total ? 0.5 : 1.0;
   if (e.settings.allowed_error) engine.keep({share * *e.settings.allowed_error, *e.city, cell.cell, e.stop});
   FurtherAnswers further(e.further, cell, answers);
-  begin_further(further, engine, geometry.far, e.canopy_pixels(cell, answers));
+  begin_further(further, engine, cell.cell, geometry.far, e.canopy_pixels(cell, answers));
   std::vector<PacketAnswer> of_packets;
   for_each_group(cell.receivers, order, [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
     throw_if_cancelled(e.stop);
@@ -198,7 +201,10 @@ class PixelMethod final : public MethodWithHorizons {
   [[nodiscard]] CellReceivers evaluate_by_pixels(const PixelCity& city, const CellReceivers& cell,
                                                  const SkyAnswers& answers) const {
     const auto start = EvaluationCounter::Clock::now();
-    PixelHorizon pixels(city, cell.cell, evaluation_.further.needs_profiles() ? HorizonUse::each_azimuth : HorizonUse::sum);
+    PixelHorizon pixels(city, cell.cell,
+                        evaluation_.further.needs_profiles() || evaluation_.further.needs_view_factors()
+                            ? HorizonUse::each_azimuth
+                            : HorizonUse::sum);
     const ReceiversOnPixels found = pixels.packets_of(cell.receivers);
     CellGeometry geometry = CellGeometry::of_pixels(evaluation_, cell.cell);
     draw(geometry, &pixels, found.on_pixels, cell, answers,

@@ -123,6 +123,10 @@ const PixelCity* Evaluation::pixels(const SkyAnswers& answers) const {
   return pixels_->city ? &*pixels_->city : nullptr;
 }
 
+SeenScene Evaluation::seen_from(Cell cell) const {
+  return {city->seen_from(cell), city->surfaces(), package.has_crowns() ? &city->crowns(settings.further.canopy) : nullptr};
+}
+
 std::span<const HorizonEdge> Evaluation::far_terrain_edges() const {
   std::call_once(far_terrain_->once, [this] { far_terrain_->edges = horizon_edges_of(package.far_terrain()); });
   return far_terrain_->edges;
@@ -172,7 +176,7 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers
   const Quantities& further = settings().further;
   if (further.horizon_distances) find_horizon_distances(cell, answers);
   if (further.shadow_patches) find_shadow_patches(cell, answers);
-  if (further.any_of_views()) find_views(cell, answers);
+  if (further.any_of_places()) find_views(cell, answers);
   if (further.seen_building) find_building(cell, answers);
 }
 
@@ -204,14 +208,10 @@ void SkyEvaluator::find_shadow_patches(const CellReceivers& cell, const SkyAnswe
 void SkyEvaluator::find_views(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = EvaluationCounter::Clock::now();
   const Evaluation& e = *evaluation_;
-  SeenScene scene{e.city->seen_from(cell.cell), e.city->surfaces()};
-  const Quantities& further = settings().further;
-  if (package().has_crowns()) scene.crowns = &e.city->crowns(further.canopy);
+  const SeenScene scene = e.seen_from(cell.cell);
   const auto scene_ready = EvaluationCounter::Clock::now();
-  if (further.view_factors || further.view_factors_below)
-    store_view_factors(cell, scene, e.directions, e.settings.weight, e.further, answers, e.stop);
   if (around_) around_->store(cell, e.further, answers);
-  if (further.view_eye) store_views_of_eye(cell, scene, eye_directions_, e.further, answers, e.stop);
+  if (settings().further.view_eye) store_views_of_eye(cell, scene, eye_directions_, e.further, answers, e.stop);
   e.counter->add_times(start, scene_ready);
 }
 

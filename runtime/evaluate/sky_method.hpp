@@ -18,6 +18,7 @@
 #include "evaluate/sky_answers.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/sky_parts.hpp"
+#include "evaluate/view_factors.hpp"
 #include "horizon/pixel_horizon.hpp"
 #include "package/horizon_edge.hpp"
 #include "package/package_reader.hpp"
@@ -62,6 +63,8 @@ struct Evaluation {
   /// The pixels that all crowns are, where the sky behind them may be found by marching over them from some of these receivers of
   /// a cell: all that is asked for has no bounds, and crowns count by the rule `once`. Null elsewhere. Thread-safe.
   [[nodiscard]] const CanopyCity* canopy_pixels(const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// What is seen from a cell by rays. Thread-safe.
+  [[nodiscard]] SeenScene seen_from(Cell cell) const;
   /// The edges of the far terrain in its own frame: outside of the grid there are no far maps, which have them elsewhere.
   /// Thread-safe.
   [[nodiscard]] std::span<const HorizonEdge> far_terrain_edges() const;

@@ -6,6 +6,7 @@
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/further_answers.hpp"
 #include "evaluate/sky_method.hpp"
+#include "evaluate/view_factors.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/exact_sky.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -35,6 +36,12 @@ class TracedMethod : public SkyMethod {
                      further.trace(packets, scene, evaluation_.stop);
                      further.store(packets, numbers);
                    });
+  }
+  /// What is seen besides the sky, once svf is stored.
+  void find_view_factors(const CellReceivers& cell, const SkyAnswers& answers) const {
+    const Evaluation& e = evaluation_;
+    if (!e.further.needs_view_factors()) return;
+    ViewFactors(e.seen_from(cell.cell), e.directions, e.settings.weight, e.further, answers, e.stop).store(cell);
   }
   [[nodiscard]] bool wants_canopies() const { return evaluation_.further.canopy_columns().count > 0; }
   void trace_canopies(const CellReceivers& cell, const RayScene& scene, const CrownOccluder& crowns,
@@ -84,6 +91,7 @@ class NearSceneMethod final : public TracedMethod {
     const auto scene_ready = EvaluationCounter::Clock::now();
     const RayScene scene{{near, {}}, &far};
     trace(cell, scene, answers);
+    find_view_factors(cell, answers);
     if (wants_canopies()) {
       const std::vector<Crown> crowns = canopy_around(evaluation_.package, cell.cell, bounding_box(cell.receivers).low.z);
       trace_canopies(cell, scene, CrownOccluder(crowns, evaluation_.settings.further.canopy, evaluation_.stop), answers);
@@ -113,6 +121,7 @@ class WholeCityMethod final : public TracedMethod {
     const auto scene_ready = EvaluationCounter::Clock::now();
     trace(cell, scene, answers);
     if (evaluation_.wants_bounds(answers)) store_exact_sky(cell, answers);
+    find_view_factors(cell, answers);
     if (wants_canopies()) trace_canopies(cell, scene, evaluation_.city->crowns(evaluation_.settings.further.canopy), answers);
     evaluation_.counter->add_times(start, scene_ready);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -50,20 +51,22 @@ struct MetByPacket {
   std::uint32_t free = 0;
 };
 
-MetByPacket look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towards, std::size_t count) {
+/// `in_sky` are the bits of the receivers that are known to see the sky there, or a crown.
+MetByPacket look(const SeenScene& scene, const RayOrigins& origins, const Point3d& towards, std::uint32_t wanted,
+                 std::uint32_t in_sky) {
   const Point3f direction = rounded(towards);
-  const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-  const Occluder::Hits hits = scene.solid.occluder.nearest(origins, direction, least_distance_m, wanted);
+  const Occluder::Hits hits = scene.solid.occluder.nearest(origins, direction, least_distance_m, wanted & ~in_sky);
   // A crown that is met before the end of a ray is seen instead of what is there, or of the sky where the ray has no end
   const std::uint32_t crowns =
       scene.crowns == nullptr
           ? 0
           : scene.crowns->met_before(hits.distances, origins, Occluder::Directions::all_of(direction), least_distance_m, wanted);
+  // The city ends where its ground does; the ground goes on
+  const ViewClass beyond = towards.z > 0.0 ? ViewClass::sky : ViewClass::ground;
   MetByPacket met;
-  for (std::size_t l = 0; l < count; ++l) {
-    const bool is_free = hits.distances[l] == std::numeric_limits<float>::infinity();
-    // The city ends where its ground does; the ground goes on
-    const ViewClass beyond = towards.z > 0.0 ? ViewClass::sky : ViewClass::ground;
+  for (std::uint32_t bits = wanted; bits != 0; bits &= bits - 1) {
+    const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+    const bool is_free = has_bit(in_sky, l) || hits.distances[l] == std::numeric_limits<float>::infinity();
     const ViewClass solid = is_free ? beyond : scene.surfaces.met(hits.triangles[l], direction);
     met.seen[l] = has_bit(crowns, l) ? ViewClass::crown : solid;
     if (is_free) met.free |= 1U << l;
@@ -102,53 +105,79 @@ std::vector<Receiver> in_order_of_packets(const CellReceivers& cell, const std::
   return ordered;
 }
 
-/// Calls `f` for each packet of receivers that follow each other, with their places in the scene.
-template <class F>
-void for_each_packet(std::span<const Receiver> receivers, const SeenScene& scene, const F& f) {
-  for (std::size_t first = 0; first < receivers.size(); first += RayOrigins::lanes) {
-    const std::span<const Receiver> packet = receivers.subspan(first, std::min(RayOrigins::lanes, receivers.size() - first));
-    std::vector<Point3f> places;
-    for (const Receiver& r : packet) places.push_back(placed(r.p_cell, scene.solid.scene_from_cell_m));
-    f(packet, gathered(places));
-  }
+/// The places of a packet in the scene.
+RayOrigins origins_in(const SeenScene& scene, std::span<const Receiver> packet) {
+  std::vector<Point3f> places;
+  for (const Receiver& r : packet) places.push_back(placed(r.p_cell, scene.solid.scene_from_cell_m));
+  return gathered(places);
 }
 
-/// Calls `f` with what a packet meets in each direction.
+/// Calls `f` for each packet of receivers that follow each other.
 template <class F>
-void for_each_direction(std::span<const Point3d> directions, const SeenScene& scene, const RayOrigins& origins, std::size_t count,
-                        const std::stop_token& stop, const F& f) {
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    if (k % directions_between_looks == 0) throw_if_cancelled(stop);
-    f(directions[k], look(scene, origins, directions[k], count));
-  }
+void for_each_packet(std::span<const Receiver> receivers, const F& f) {
+  for (std::size_t first = 0; first < receivers.size(); first += RayOrigins::lanes)
+    f(receivers.subspan(first, std::min(RayOrigins::lanes, receivers.size() - first)));
 }
+
+std::uint32_t bits_of_first(std::size_t count) { return static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1); }
 
 }  // namespace
 
-void store_view_factors(const CellReceivers& cell, const SeenScene& scene, const SkyDirections& directions, SkyWeight weight,
-                        const FurtherQuantities& quantities, const SkyAnswers& answers, const std::stop_token& stop) {
-  const ViewRanges& ranges = quantities.view_columns();
-  const ViewLayout layout(quantities.quantities().wall_sectors);
-  const std::vector<Receiver> ordered = in_order_of_packets(cell, stop);
+void ViewFactors::store(const CellReceivers& cell) {
+  const std::vector<Receiver> ordered = in_order_of_packets(cell, stop_);
   for_each_normal(ordered, [&](std::span<const Receiver> group) {
-    const Point3f& n = group.front().normal;
-    const std::vector<Point3d> around = directions.around(normalized(Point3d{n.x, n.y, n.z}));
-    for_each_packet(group, scene, [&](std::span<const Receiver> receivers, const RayOrigins& origins) {
-      std::array<PartsOfView, RayOrigins::lanes> parts;
-      for_each_direction(around, scene, origins, receivers.size(), stop, [&](const Point3d& towards, const MetByPacket& met) {
-        for (std::size_t l = 0; l < receivers.size(); ++l) {
-          PartsOfView& of = parts[l];
-          (towards.z <= 0.0 ? of.below : has_bit(met.free, l) ? of.sky : of.hidden).count(met.seen[l]);
-        }
-      });
-      for (std::size_t l = 0; l < receivers.size(); ++l) {
-        const Receiver& r = receivers[l];
-        const std::span<float> values = answers.further.subspan(r.index * quantities.size(), quantities.size());
-        write(parts[l], share_below(r.normal, weight), answers.svf[r.index], layout,
-              {values.subspan(ranges.all.first, ranges.all.count), values.subspan(ranges.below.first, ranges.below.count)});
-      }
-    });
+    for_each_packet(group, [&](std::span<const Receiver> packet) { store(packet, nullptr); });
   });
+}
+
+void ViewFactors::store(std::span<const Receiver> packet, const SkyProfile* profile) {
+  std::size_t first_lane = 0;
+  for_each_normal(packet, [&](std::span<const Receiver> alike) {
+    look_around(alike.front().normal);
+    find_known_sky(profile);
+    store_alike(alike, first_lane);
+    first_lane += alike.size();
+  });
+}
+
+void ViewFactors::look_around(const Point3f& normal) {
+  if (normal == normal_) return;
+  normal_ = normal;
+  around_ = directions_.around(normalized(Point3d{normal.x, normal.y, normal.z}));
+  rays_.clear();
+  for (const Point3d& d : around_) {
+    const auto [before, after] = quantities_.azimuths().around(horizontal(d));
+    // A horizon tells nothing of what lies below the horizontal
+    const double slope = d.z > 0.0 ? d.z / norm(horizontal(d)) : -1.0;
+    rays_.push_back({before, after, static_cast<float>(slope)});
+  }
+}
+
+void ViewFactors::find_known_sky(const SkyProfile* profile) {
+  in_sky_.assign(rays_.size(), 0);
+  if (profile != nullptr) sky_kernels().find_rays_above(profile->sky_from.front().data(), rays_, in_sky_.data());
+}
+
+void ViewFactors::store_alike(std::span<const Receiver> receivers, std::size_t first_lane) {
+  const RayOrigins origins = origins_in(scene_, receivers);
+  const std::uint32_t wanted = bits_of_first(receivers.size());
+  std::array<PartsOfView, RayOrigins::lanes> parts;
+  for (std::size_t k = 0; k < around_.size(); ++k) {
+    if (k % directions_between_looks == 0) throw_if_cancelled(stop_);
+    const MetByPacket met = look(scene_, origins, around_[k], wanted, (std::uint32_t{in_sky_[k]} >> first_lane) & wanted);
+    for (std::size_t l = 0; l < receivers.size(); ++l) {
+      PartsOfView& of = parts[l];
+      (around_[k].z <= 0.0 ? of.below : has_bit(met.free, l) ? of.sky : of.hidden).count(met.seen[l]);
+    }
+  }
+  const ViewLayout layout(quantities_.quantities().wall_sectors);
+  const ViewRanges& ranges = quantities_.view_columns();
+  for (std::size_t l = 0; l < receivers.size(); ++l) {
+    const Receiver& r = receivers[l];
+    const std::span<float> values = answers_.further.subspan(r.index * quantities_.size(), quantities_.size());
+    write(parts[l], share_below(r.normal, weight_), answers_.svf[r.index], layout,
+          {values.subspan(ranges.all.first, ranges.all.count), values.subspan(ranges.below.first, ranges.below.count)});
+  }
 }
 
 std::vector<Point3d> eye_directions(double field_deg, std::size_t count, const GridRotation& rotation) {
@@ -169,11 +198,14 @@ void store_views_of_eye(const CellReceivers& cell, const SeenScene& scene, std::
   const ColumnRange& range = quantities.view_columns().eye;
   const ViewLayout layout(quantities.quantities().wall_sectors);
   const std::vector<Receiver> ordered = in_order_of_packets(cell, stop);
-  for_each_packet(ordered, scene, [&](std::span<const Receiver> packet, const RayOrigins& origins) {
+  for_each_packet(ordered, [&](std::span<const Receiver> packet) {
+    const RayOrigins origins = origins_in(scene, packet);
     std::array<PartOfView, RayOrigins::lanes> parts;
-    for_each_direction(directions, scene, origins, packet.size(), stop, [&](const Point3d&, const MetByPacket& met) {
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      if (k % directions_between_looks == 0) throw_if_cancelled(stop);
+      const MetByPacket met = look(scene, origins, directions[k], bits_of_first(packet.size()), 0);
       for (std::size_t l = 0; l < packet.size(); ++l) parts[l].count(met.seen[l]);
-    });
+    }
     for (std::size_t l = 0; l < packet.size(); ++l) {
       Views views{};
       parts[l].add(1.0F, ViewClass::other, layout, views);

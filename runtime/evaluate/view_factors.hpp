@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "base/frame.hpp"
@@ -13,6 +15,8 @@
 #include "evaluate/sky_directions.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
+#include "horizon/kernels.hpp"
+#include "horizon/sky_profile.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "receivers/receiver.hpp"
@@ -27,12 +31,44 @@ struct SeenScene {
   const CrownOccluder* crowns = nullptr;  ///< null where there are none
 };
 
-/// Stores the columns of Quantities::view_factors and ::view_factors_below of the receivers of a cell, whose svf is stored, by
-/// rays in their directions. Rays say how the sky is divided among sky and crowns, and what hides it among classes, and the lower
-/// half likewise; how large the three parts are tell svf and the receiver's normal, so that all add up to 1. A part that no ray
-/// lies in is `other`, but for the sky. `weight` is that of svf and of the directions. Throws Cancelled when `stop` is asked for.
-void store_view_factors(const CellReceivers& cell, const SeenScene& scene, const SkyDirections& directions, SkyWeight weight,
-                        const FurtherQuantities& quantities, const SkyAnswers& answers, const std::stop_token& stop);
+/// Stores the columns of Quantities::view_factors and ::view_factors_below of receivers whose svf is stored, by rays in their
+/// directions. Rays say how the sky is divided among sky and crowns, and what hides it among classes, and the lower half
+/// likewise; how large the three parts are tell svf and the receiver's normal, so that all add up to 1. A part that no ray lies
+/// in is `other`, but for the sky. Of one thread.
+class ViewFactors {
+ public:
+  /// All must outlive it. `weight` is that of svf and of the directions.
+  ViewFactors(SeenScene scene, const SkyDirections& directions, SkyWeight weight, const FurtherQuantities& quantities,
+              const SkyAnswers& answers, std::stop_token stop)
+      : scene_(scene),
+        directions_(directions),
+        weight_(weight),
+        quantities_(quantities),
+        answers_(answers),
+        stop_(std::move(stop)) {}
+
+  /// Those of all receivers of a cell. Throws Cancelled when `stop` is asked for.
+  void store(const CellReceivers& cell);
+  /// Those of a packet of receivers, whose profile is known, or null: no ray is traced above its horizons.
+  void store(std::span<const Receiver> packet, const SkyProfile* profile);
+
+ private:
+  void look_around(const Point3f& normal);
+  void find_known_sky(const SkyProfile* profile);
+  void store_alike(std::span<const Receiver> receivers, std::size_t first_lane);
+
+  SeenScene scene_;
+  const SkyDirections& directions_;
+  SkyWeight weight_;
+  const FurtherQuantities& quantities_;
+  const SkyAnswers& answers_;
+  std::stop_token stop_;
+  // Of the receivers that were asked last, all of which look the same way
+  Point3f normal_{0.0F, 0.0F, 0.0F};
+  std::vector<Point3d> around_;
+  std::vector<RayBetweenAzimuths> rays_;  ///< these directions
+  std::vector<std::uint16_t> in_sky_;     ///< for each of them, a bit for each receiver of the packet
+};
 
 /// So many directions in the grid frame, within ±`field_deg` of the horizontal and alike in solid angle.
 [[nodiscard]] std::vector<Point3d> eye_directions(double field_deg, std::size_t count, const GridRotation& rotation);

@@ -65,6 +65,12 @@ AzimuthSampling::AzimuthSampling(std::span<const Point2d> unit_vectors) : order_
   }
 }
 
+AzimuthSampling::Pair AzimuthSampling::around(Point2d direction) const {
+  const auto after = static_cast<std::uint32_t>(std::ranges::upper_bound(turns_, pseudo_angle_turns(direction)) - turns_.begin());
+  const auto count = static_cast<std::uint32_t>(size());
+  return {(after == 0 ? count : after) - 1, after == count ? 0 : after};
+}
+
 std::vector<std::uint32_t> AzimuthSampling::first_of_parts(std::size_t count) const {
   std::vector<std::uint32_t> result;
   for (std::size_t part = 0; part < count; ++part) {

@@ -31,6 +31,11 @@ class AzimuthSampling {
   [[nodiscard]] std::size_t size() const { return turns_.size(); }
   [[nodiscard]] const float* cosine() const { return cosine_.data(); }
   [[nodiscard]] const float* sine() const { return sine_.data(); }
+  /// The last azimuth that is no farther around the turn than a direction, and the next one; the first one comes after the last.
+  struct Pair {
+    std::uint32_t before, after;
+  };
+  [[nodiscard]] Pair around(Point2d direction) const;
   /// For each azimuth, the number of the direction that it belongs to.
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
 

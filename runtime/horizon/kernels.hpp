@@ -62,6 +62,12 @@ struct ResidualRows {
   ReceiverPacket::Lanes shares, caps;
 };
 
+/// A ray that lies between two azimuths, or along one of them.
+struct RayBetweenAzimuths {
+  std::uint32_t before, after;
+  float slope;
+};
+
 /// From this azimuth to the next, the sky of the receivers with set bits jumps.
 struct SkyJump {
   std::uint32_t azimuth, receivers;
@@ -96,6 +102,9 @@ struct SkyKernels {
   void (*find_max_difference)(const float* slopes, const float* other, std::size_t azimuth_count, float* differences);
   /// counts[receiver] = number of azimuths k at which the horizon lies below ray_slopes[k].
   void (*count_above)(const float* slopes, const float* ray_slopes, std::size_t azimuth_count, float* counts);
+
+  /// above[ray] = a bit for each receiver whose horizons at both azimuths lie below the ray.
+  void (*find_rays_above)(const float* slopes, std::span<const RayBetweenAzimuths> rays, std::uint16_t* above);
 
   /// slopes = max(slopes, min(row[bin of the azimuth], caps)).
   void (*raise_to_row)(const float* row, const float* caps, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,

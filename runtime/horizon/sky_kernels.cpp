@@ -166,6 +166,14 @@ void count_above(const float* slopes, const float* ray_slopes, std::size_t azimu
   store(count, counts);
 }
 
+void find_rays_above(const float* slopes, std::span<const RayBetweenAzimuths> rays, std::uint16_t* above) {
+  for (const RayBetweenAzimuths& ray : rays) {
+    const Floats horizon =
+        max(load(slopes + std::size_t{ray.before} * lane_count), load(slopes + std::size_t{ray.after} * lane_count));
+    *above++ = static_cast<std::uint16_t>(bits_of(horizon < ray.slope));
+  }
+}
+
 // --- Horizons raised to a far map's bins
 // -------------------------------------------------------------------------------------------
 
@@ -211,6 +219,7 @@ constexpr SkyKernels sky_kernels{.sum_cosine_up = sum_cosine_up,
                                  .join = join,
                                  .find_max_difference = find_max_difference,
                                  .count_above = count_above,
+                                 .find_rays_above = find_rays_above,
                                  .raise_to_row = raise_to_row,
                                  .raise_between_rows = raise_between_rows};
 }  // namespace FARLOD_TARGET

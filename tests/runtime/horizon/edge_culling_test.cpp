@@ -329,6 +329,24 @@ TEST(AzimuthSampling, OfDirectionsSaysWhichIsWhere) {
   for (std::uint32_t n = 0; n < places.size(); ++n) EXPECT_EQ(places[n], n);
 }
 
+/// From one azimuth counter-clockwise to another, in turns.
+double turned(double from, double to) { return to - from - std::floor(to - from); }
+
+TEST(AzimuthSampling, DirectionsLieBetweenTheAzimuthsAroundThem) {
+  const AzimuthSampling ring = AzimuthSampling::even(320, GridRotation(Angle::degrees(17.0)));
+  for (int n = 0; n < 1000; ++n) {
+    const double turn = (n + 0.3) / 1000.0, angle = 2.0 * std::numbers::pi * turn;
+    const auto [before, after] = ring.around({5.0 * std::cos(angle), 5.0 * std::sin(angle)});
+    EXPECT_EQ(after, (before + 1) % ring.size());
+    const double apart = turned(azimuth(ring, before), azimuth(ring, after));
+    EXPECT_LE(turned(azimuth(ring, before), turn), apart) << turn;
+  }
+  for (std::uint32_t k = 0; k < ring.size(); ++k) {
+    const auto [before, after] = ring.around({ring.cosine()[k], ring.sine()[k]});
+    EXPECT_TRUE(before == k || after == k) << k;
+  }
+}
+
 TEST(AzimuthSampling, StraightUpGetsAnAzimuthToo) {
   const std::vector<Point3d> up{{0.0, 0.0, 1.0}};
   const AzimuthSampling ring = AzimuthSampling(up);
