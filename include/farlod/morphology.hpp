@@ -52,7 +52,7 @@ struct CellVegetation {
   double height_mean_m = 0.0;  ///< of their tops above the ground below their axes; 0 without crowns
 };
 
-/// The mean sky view factors of what a cell has, of what is not covered: sky_of_cells. None where nothing is.
+/// The mean sky view factors of what a cell or a zone has, of what is not covered: sky_of_cells. None where nothing is.
 struct CellSky {
   std::optional<double> ground, walls, roofs;
 };
@@ -120,6 +120,12 @@ using Zone = std::vector<std::vector<Point2d>>;
 /// and evaluate_surfaces throw, InvalidArgument for a dry run and for a run whose answers are kept, too.
 [[nodiscard]] FARLOD_EXPORT std::vector<CellSky> sky_of_cells(const Package& package, double spacing_m,
                                                               const EvaluationSettings& settings = {},
+                                                              const RunSettings& run = {});
+
+/// The same of zones, in their order, where they lie in the grid. A wall on a border belongs to the zone behind it. Only what
+/// lies near zones is evaluated. Throws what morphology_of_zones throws of them, and InvalidArgument for a region, too.
+[[nodiscard]] FARLOD_EXPORT std::vector<CellSky> sky_of_zones(const Package& package, const std::vector<Zone>& zones,
+                                                              double spacing_m, const EvaluationSettings& settings = {},
                                                               const RunSettings& run = {});
 
 /// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell.

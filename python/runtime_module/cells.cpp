@@ -86,9 +86,16 @@ std::vector<Zone> zones_of(const std::vector<ZoneInPython>& zones) {
   return result;
 }
 
-py::dict zones_in_python(const Package& package, const std::vector<ZoneInPython>& zones, const CallerSettings& caller) {
+py::dict zones_in_python(const Package& package, const std::vector<ZoneInPython>& in_python, std::optional<double> spacing_m,
+                         const EvaluationSettings& settings, const CallerSettings& caller) {
+  const std::vector<Zone> zones = zones_of(in_python);
   std::vector<UrbanForm> forms;
-  run_interruptibly(caller, [&](const RunSettings& run) { forms = morphology_of_zones(package, zones_of(zones), run); });
+  run_interruptibly(caller, [&](const RunSettings& run) {
+    forms = morphology_of_zones(package, zones, run);
+    if (!spacing_m) return;
+    const std::vector<CellSky> skies = sky_of_zones(package, zones, *spacing_m, settings, run);
+    for (std::size_t n = 0; n < forms.size(); ++n) forms[n].sky = skies[n];
+  });
   return columns_by_name(forms);
 }
 
@@ -96,7 +103,8 @@ py::dict zones_in_python(const Package& package, const std::vector<ZoneInPython>
 
 void add_cells(py::module_& module) {
   module.def("cells_of", &cells_in_python, py::arg("package"), py::arg("svf_spacing_m"), py::arg("settings"), py::arg("caller"));
-  module.def("zones_of", &zones_in_python, py::arg("package"), py::arg("zones_m"), py::arg("caller"));
+  module.def("zones_of", &zones_in_python, py::arg("package"), py::arg("zones_m"), py::arg("svf_spacing_m"), py::arg("settings"),
+             py::arg("caller"));
 }
 
 }  // namespace farlod

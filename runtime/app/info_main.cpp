@@ -134,13 +134,17 @@ std::vector<UrbanForm> forms_of(const Package& package, const RequestedZones& re
       zone.insert(zone.end(), polygon.holes.begin(), polygon.holes.end());
     }
   }
-  return morphology_of_zones(package, zones, run);
+  std::vector<UrbanForm> forms = morphology_of_zones(package, zones, run);
+  if (!options.sky_spacing_m) return forms;
+  const std::vector<CellSky> skies = sky_of_zones(package, zones, *options.sky_spacing_m, {}, run);
+  for (std::size_t n = 0; n < forms.size(); ++n) forms[n].sky = skies[n];
+  return forms;
 }
 
 /// The options that values depend on.
 std::string settings_of_table(const InfoOptions& options) {
-  if (!options.zones_file.empty()) return "--cells --zones";
-  return options.sky_spacing_m ? fmt::format("--cells --svf {:g}", *options.sky_spacing_m) : "--cells";
+  const std::string cells = options.zones_file.empty() ? "--cells" : "--cells --zones";
+  return options.sky_spacing_m ? fmt::format("{} --svf {:g}", cells, *options.sky_spacing_m) : cells;
 }
 
 /// Returns the number of its rows.

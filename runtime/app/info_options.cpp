@@ -113,7 +113,6 @@ void resolve_zones(const RawOptions& raw, InfoOptions& o) {
   if (raw.zones.empty() && !o.zones_layer.empty()) throw CLI::ValidationError("--zones-layer", "it goes with --zones");
   if (raw.zones.empty()) return;
   if (raw.cells.empty()) throw CLI::ValidationError("--zones", "it goes with --cells");
-  if (o.sky_spacing_m) throw CLI::ValidationError("--svf", "it is of the cells of the grid: leave it or --zones out");
 }
 
 void resolve(const RawOptions& raw, InfoOptions& o) {

@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/run_settings.hpp"
+#include "farlod/angle.hpp"
+#include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "farlod/morphology.hpp"
 #include "farlod/raster.hpp"
+#include "farlod/region.hpp"
 #include "farlod/surfaces.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
@@ -19,68 +24,166 @@
 namespace farlod {
 namespace {
 
-/// Collects the receivers of each cell, which come in the same order whatever the number of threads. The manifest must outlive
-/// it.
-class SkyOfCells {
- public:
-  explicit SkyOfCells(const package::Manifest& manifest)
-      : manifest_(manifest), sums_(static_cast<std::size_t>(manifest.grid.cells.size())) {}
+/// What receivers of one place add up to.
+struct SkySums {
+  AreaMean ground, walls, roofs;
 
-  void add(const RasterPlan& plan, const RasterTile& tile) {
-    const std::size_t rows = pixels_of_tile(tile.place.row, plan.rows), columns = pixels_of_tile(tile.place.column, plan.columns);
-    for (std::size_t row = 0; row < rows; ++row)
-      for (std::size_t column = 0; column < columns; ++column) {
-        const float svf = tile.svf[row * raster_tile_edge + column];
-        if (std::isnan(svf)) continue;
-        const Point2d centre =
-            plan.centre_m(tile.place.column * raster_tile_edge + column, tile.place.row * raster_tile_edge + row);
-        const Cell cell = manifest_.grid.cell_of(manifest_.grid_from_projected(centre));
-        if (manifest_.grid.cells.contains(cell))
-          sums_[manifest_.grid.cells.index_of(cell)].ground.add(double{svf}, plan.step_m * plan.step_m);
-      }
-  }
-  void add(std::size_t cell, std::span<const SurfacePoint> points) {
-    for (const SurfacePoint& point : points) {
-      if (!point.svf) continue;
-      if (point.kind == SurfaceKind::wall) sums_[cell].walls.add(*point.svf, point.area_m2);
-      if (point.kind == SurfaceKind::roof) sums_[cell].roofs.add(*point.svf, point.area_m2);
+  [[nodiscard]] CellSky means() const { return {ground.value(), walls.value(), roofs.value()}; }
+};
+
+std::vector<CellSky> means_of(const std::vector<SkySums>& sums) {
+  std::vector<CellSky> result;
+  for (const SkySums& s : sums) result.push_back(s.means());
+  return result;
+}
+
+void add(const SurfacePoint& point, SkySums& sums) {
+  if (!point.svf) return;
+  if (point.kind == SurfaceKind::wall) sums.walls.add(*point.svf, point.area_m2);
+  if (point.kind == SurfaceKind::roof) sums.roofs.add(*point.svf, point.area_m2);
+}
+
+/// Calls `f(centre, svf)` for each pixel of a tile that has a value.
+template <class F>
+void visit_pixels(const RasterPlan& plan, const RasterTile& tile, const F& f) {
+  const std::size_t rows = pixels_of_tile(tile.place.row, plan.rows), columns = pixels_of_tile(tile.place.column, plan.columns);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const float svf = tile.svf[row * raster_tile_edge + column];
+      if (!std::isnan(svf))
+        f(plan.centre_m(tile.place.column * raster_tile_edge + column, tile.place.row * raster_tile_edge + row), double{svf});
+    }
+}
+
+void require_means(double spacing_m, const EvaluationSettings& settings, const RunSettings& run) {
+  require_between("spacing_m", spacing_m, 0.05, 1000.0);
+  if (settings.dry_run) throw InvalidArgument("a dry run has no means: leave dry_run out");
+  if (run.answers || run.shard) throw InvalidArgument("means are not kept: leave answers and shard out");
+}
+
+/// Evaluates the ground of a part of the map, and all surfaces. Receivers come in the same order for any number of threads:
+/// `on_pixel(centre, svf)`, then `on_point(cell, point)`.
+template <class OnPixel, class OnPoint>
+void evaluate_all(const Package& package, const Box2d& part, double spacing_m, const EvaluationSettings& settings,
+                  const RunSettings& run, const OnPixel& on_pixel, const OnPoint& on_point) {
+  const RasterPlan plan = plan_raster(package, spacing_m, part);
+  (void)evaluate_raster(
+      package, plan, {.above = HeightAbove::ground, .height_m = 0.0}, settings,
+      [&](const RasterTile& tile) { visit_pixels(plan, tile, on_pixel); }, run);
+  (void)evaluate_surfaces(
+      package, {.choice = SurfaceChoice::all, .spacing_m = spacing_m}, settings,
+      [&](std::size_t cell, std::span<const SurfacePoint> points) {
+        for (const SurfacePoint& point : points) on_point(cell, point);
+      },
+      run);
+}
+
+std::uint64_t bytes_of_means(std::size_t count) { return count * (sizeof(SkySums) + sizeof(CellSky)); }
+
+/// The zones at a place, found by the cell of the grid that it lies in.
+class ZonesAtPlaces {
+ public:
+  ZonesAtPlaces(const package::Manifest& manifest, const std::vector<Zone>& zones) : manifest_(manifest) {
+    for (const Zone& zone : zones) {
+      const Box2d& box = regions_.emplace_back(zone).outline();
+      outline_.add(box.low);
+      outline_.add(box.high);
+    }
+    const Grid& grid = manifest.grid;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
+      const Box2d cell = projected_box(grid.corner_of(grid.cells.cell_at(n)), grid.cell_edge_m);
+      std::vector<std::size_t>& here = of_cells_.emplace_back();
+      for (std::size_t zone = 0; zone < regions_.size(); ++zone)
+        if (meet(regions_[zone].outline(), cell)) here.push_back(zone);
     }
   }
-  [[nodiscard]] std::vector<CellSky> means() const {
-    std::vector<CellSky> result;
-    for (const Sums& s : sums_) result.push_back({s.ground.value(), s.walls.value(), s.roofs.value()});
-    return result;
+  /// The rectangle around all of them.
+  [[nodiscard]] const Box2d& outline() const { return outline_; }
+  /// Calls f(zone) for each.
+  template <class F>
+  void visit(Point2d p, const F& f) const {
+    const Cell cell = manifest_.grid.cell_of(manifest_.grid_from_projected(p));
+    if (!manifest_.grid.cells.contains(cell)) return;
+    for (const std::size_t zone : of_cells_[manifest_.grid.cells.index_of(cell)])
+      if (regions_[zone].contains(p)) f(zone);
   }
 
  private:
-  struct Sums {
-    AreaMean ground, walls, roofs;
-  };
+  [[nodiscard]] Box2d projected_box(Point2d corner_grid, double edge_m) const {
+    Box2d box;
+    for (const Point2d step : {Point2d{0.0, 0.0}, Point2d{edge_m, 0.0}, Point2d{0.0, edge_m}, Point2d{edge_m, edge_m}}) {
+      const Point2d corner = corner_grid + step;
+      box.add(horizontal(manifest_.projected_from_grid({corner.x, corner.y, 0.0})));
+    }
+    return box;
+  }
+  static bool meet(const Box2d& a, const Box2d& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+  }
+
   const package::Manifest& manifest_;
-  std::vector<Sums> sums_;
+  std::vector<Region> regions_;
+  Box2d outline_;
+  std::vector<std::vector<std::size_t>> of_cells_;
 };
+
+/// Behind a wall, where its building is: receivers stand 1 cm in front of it.
+Point2d behind(const SurfacePoint& point, Angle convergence) {
+  constexpr double depth_m = 0.02;
+  const Point2d p{point.p_projected.x, point.p_projected.y};
+  if (point.kind != SurfaceKind::wall) return p;
+  const Angle azimuth = point.azimuth - convergence;
+  return p - depth_m * Point2d{sin(azimuth), cos(azimuth)};
+}
+
+Box2d both(const Box2d& a, const Box2d& b) {
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}, {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
 
 }  // namespace
 
 std::vector<CellSky> sky_of_cells(const Package& package, double spacing_m, const EvaluationSettings& settings,
                                   const RunSettings& run) {
-  require_between("spacing_m", spacing_m, 0.05, 1000.0);
-  if (settings.dry_run) throw InvalidArgument("a dry run has no means: leave dry_run out");
-  if (run.answers || run.shard) throw InvalidArgument("the means of cells are not kept: leave answers and shard out");
+  require_means(spacing_m, settings, run);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
-  SkyOfCells cells(manifest);
-  const auto count = static_cast<double>(manifest.grid.cells.size());
-  const RunSettings with_means =
-      with_bytes_of_caller(run, static_cast<std::uint64_t>(count * (6.0 * sizeof(double) + sizeof(CellSky))));
-  const RasterPlan plan = plan_raster(package, spacing_m, package.description().outline_projected);
-  (void)evaluate_raster(
-      package, plan, {.above = HeightAbove::ground, .height_m = 0.0}, settings,
-      [&](const RasterTile& tile) { cells.add(plan, tile); }, with_means);
-  (void)evaluate_surfaces(
-      package, {.choice = SurfaceChoice::all, .spacing_m = spacing_m}, settings,
-      [&](std::size_t cell, std::span<const SurfacePoint> points) { cells.add(cell, points); }, with_means);
-  return cells.means();
+  const Grid& grid = manifest.grid;
+  std::vector<SkySums> sums(static_cast<std::size_t>(grid.cells.size()));
+  evaluate_all(
+      package, package.description().outline_projected, spacing_m, settings,
+      with_bytes_of_caller(run, bytes_of_means(sums.size())),
+      [&](Point2d centre, double svf) {
+        const Cell cell = grid.cell_of(manifest.grid_from_projected(centre));
+        if (grid.cells.contains(cell)) sums[grid.cells.index_of(cell)].ground.add(svf, spacing_m * spacing_m);
+      },
+      [&](std::size_t cell, const SurfacePoint& point) { add(point, sums[cell]); });
+  return means_of(sums);
+}
+
+std::vector<CellSky> sky_of_zones(const Package& package, const std::vector<Zone>& zones, double spacing_m,
+                                  const EvaluationSettings& settings, const RunSettings& run) {
+  require_means(spacing_m, settings, run);
+  if (settings.region) throw InvalidArgument("zones say what is evaluated: leave region out");
+  const PackageInUse in_use(package);
+  const package::Manifest& manifest = in_use.reader().manifest();
+  const ZonesAtPlaces places(manifest, zones);
+  std::vector<SkySums> sums(zones.size());
+  // Walls stand off the zones that they belong to
+  constexpr double margin_m = 1.0;
+  const Box2d near = both(grown(places.outline(), margin_m), package.description().outline_projected);
+  if (near.empty()) return means_of(sums);
+  EvaluationSettings of_zones = settings;
+  of_zones.region = std::make_shared<const Region>(
+      std::vector<Region::Ring>{{near.low, {near.high.x, near.low.y}, near.high, {near.low.x, near.high.y}}});
+  evaluate_all(
+      package, near, spacing_m, of_zones, with_bytes_of_caller(run, bytes_of_means(sums.size())),
+      [&](Point2d centre, double svf) {
+        places.visit(centre, [&](std::size_t zone) { sums[zone].ground.add(svf, spacing_m * spacing_m); });
+      },
+      [&](std::size_t, const SurfacePoint& point) {
+        places.visit(behind(point, manifest.convergence), [&](std::size_t zone) { add(point, sums[zone]); });
+      });
+  return means_of(sums);
 }
 
 }  // namespace farlod

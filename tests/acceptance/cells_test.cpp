@@ -115,6 +115,11 @@ TEST_F(ZonesOfTown, HaveTheSumsOfTheCellsAndTheirFields) {
 }
 
 TEST_F(ZonesOfTown, AreTheSameInEachFormat) {
+  folder.must("farlod-info a.farlod --cells sky.csv --zones zones.geojson --svf 20 --quiet");
+  for (std::size_t row = 0; row < 2; ++row) {
+    EXPECT_GT(table("sky.csv").number(row, "svf_ground"), 0.3);
+    EXPECT_LT(table("sky.csv").number(row, "svf_walls"), table("sky.csv").number(row, "svf_roofs"));
+  }
   for (const char* name : {"zones.gpkg", "out.geojson", "zones.fgb", "zones.nc"})
     folder.must("farlod-info a.farlod --quiet --zones zones.geojson --cells " + std::string(name));
   const nlohmann::json features = folder.json_of("out.geojson").at("features");

@@ -238,7 +238,6 @@ TEST_F(Info, RefusesInOneLine) {
         wrong_usage("", "a.farlod --cells cells.csv --svf 0", {"--svf", "0.05"}),
         wrong_usage("", "a.farlod --zones town.geojson", {"--zones", "it goes with --cells"}),
         wrong_usage("", "a.farlod --cells cells.csv --zones-layer blocks", {"--zones-layer", "it goes with --zones"}),
-        wrong_usage("", "a.farlod --cells cells.csv --zones town.geojson --svf 2", {"--svf", "--zones"}),
         unusable("", "a.farlod --cells cells.csv --zones lost.gpkg", {"lost.gpkg does not exist"}),
         unusable("", "a.farlod --cells town.geojson --zones town.geojson", {"cannot write town.geojson", "--zones"}),
         unusable("", "a.farlod --cells lost/cells.csv", {"lost/cells.csv", "no folder lost"}),

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "farlod/error.hpp"
 #include "farlod/morphology.hpp"
+#include "farlod/region.hpp"
 #include "tests/library/form_town.hpp"
+#include "tests/library/packed_sample.hpp"
 #include "tests/scenes/footprints_text.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 
@@ -91,6 +94,59 @@ TEST(Zones, AWallOnABorderBelongsToTheZoneOfItsBuilding) {
     EXPECT_NEAR(forms[1].amounts.wall_area_m2, 0.0, form_rounding_m2);
     EXPECT_NEAR(forms[2].amounts.wall_area_m2, 0.0, form_rounding_m2);
   }
+}
+
+/// The squares of all cells.
+std::vector<Zone> squares_of(const std::vector<CellMorphology>& cells) {
+  std::vector<Zone> zones;
+  for (const CellMorphology& cell : cells) zones.push_back({{cell.corners_projected.begin(), cell.corners_projected.end()}});
+  return zones;
+}
+
+TEST(Zones, SkyOfSquaresIsThatOfTheirCells) {
+  const Package package(PackedSample::shared().folder());
+  const auto of_cells = sky_of_cells(package, 4.0),
+             of_zones = sky_of_zones(package, squares_of(morphology_of_cells(package)), 4.0);
+  ASSERT_EQ(of_zones.size(), of_cells.size());
+  std::size_t built = 0;
+  for (std::size_t n = 0; n < of_cells.size(); ++n) {
+    ASSERT_EQ(of_zones[n].ground.has_value(), of_cells[n].ground.has_value());
+    if (of_cells[n].ground) EXPECT_NEAR(*of_zones[n].ground, *of_cells[n].ground, 1e-4);
+    if (!of_cells[n].walls || !of_cells[n].roofs) continue;
+    ++built;
+    EXPECT_NEAR(of_zones[n].walls.value(), *of_cells[n].walls, 2e-3) << "borders cut walls, whose places may be of either side";
+    EXPECT_NEAR(of_zones[n].roofs.value(), *of_cells[n].roofs, 2e-3);
+  }
+  EXPECT_GT(built, 3U);
+}
+
+/// A house, and the ground around it: zones that part along its walls.
+TEST(Zones, SkyOfAWallIsThatOfTheZoneOfItsBuilding) {
+  const FormTown town = form_house();
+  const Package package = town.packed(37.0, AlignMode::none);
+  const auto sky = sky_of_zones(package,
+                                {{form_ring({{0, 0}, {40, 0}, {40, 20}, {0, 20}})},
+                                 {form_ring({{-15, -15}, {0, -15}, {0, 35}, {-15, 35}})},
+                                 {form_ring({{500, 500}, {510, 500}, {510, 510}})}},
+                                1.0);
+  ASSERT_EQ(sky.size(), 3U);
+  EXPECT_FALSE(sky[0].ground);
+  EXPECT_NEAR(sky[0].walls.value(), 0.5, 2e-3);
+  EXPECT_NEAR(sky[0].roofs.value(), 1.0, 2e-3);
+  EXPECT_FALSE(sky[1].walls || sky[1].roofs);
+  EXPECT_GT(sky[1].ground.value(), 0.5);
+  EXPECT_LT(sky[1].ground.value(), 0.95);
+  EXPECT_FALSE(sky[2].ground || sky[2].walls || sky[2].roofs) << "beyond the grid";
+}
+
+TEST(Zones, SkyOfZonesRefusesWhatMakesNoSense) {
+  const FormTown town = form_house();
+  const Package package = town.packed(50.0, AlignMode::none);
+  EvaluationSettings of_region;
+  of_region.region = std::make_shared<const Region>(std::vector<Region::Ring>{});
+  EXPECT_TRUE(sky_of_zones(package, {}, 2.0).empty());
+  EXPECT_THROW((void)sky_of_zones(package, {}, 0.0), InvalidArgument);
+  EXPECT_THROW((void)sky_of_zones(package, {}, 2.0, of_region), InvalidArgument);
 }
 
 TEST(Zones, ZonesWithoutAreaAreRefused) {

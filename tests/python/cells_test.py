@@ -93,6 +93,8 @@ def test_zones_that_part_the_city_have_its_sums(village: farlod.City) -> None:
         np.testing.assert_allclose(forms[column].sum(), cells[column].sum(), rtol=1e-6, err_msg=column)
     np.testing.assert_allclose(forms.area_m2, zones.geometry.area, rtol=1e-9)
     assert forms.index.tolist() == [7, 8] and forms.geometry.geom_equals(zones.geometry).all()
+    seen = village.cells(5.0, zones=zones, threads=1)
+    assert seen.svf_ground.between(0.1, 1.0).all() and (seen.svf_walls < seen.svf_roofs).all() and forms.svf_ground.isna().all()
     abroad = village.cells(zones=zones.to_crs("EPSG:4326"))
     assert abroad.crs == "EPSG:4326"
     np.testing.assert_allclose(abroad.wall_area_m2, forms.wall_area_m2, rtol=1e-5)

@@ -152,7 +152,6 @@ CALLS = {
         (("fine",), {}, "svf"),
         ((0.0,), {}, "spacing_m"),
         ((5.0,), dict(engine="fast"), '"auto"'),
-        ((5.0,), dict(zones=NOWHERE), "zones"),
         ((), dict(zones=[1]), "GeoDataFrame"),
         ((), dict(zones=NOWHERE), "CRS"),
         ((), dict(zones=LINE), "polygons"),

@@ -11,7 +11,6 @@ from farlod._modules import runtime as _runtime
 from farlod._open_city import OpenCity
 from farlod._regions import zones_of
 from farlod._settings import Evaluation, Options
-from farlod.errors import InvalidArgument
 
 if TYPE_CHECKING:
     import geopandas
@@ -36,7 +35,7 @@ class CellsOfCity(OpenCity):
         zones : geopandas.GeoDataFrame or GeoSeries of polygons, optional
             Census blocks, local climate zones, squares of a model: the rows are these, in the place of cells, with their index,
             geometry and CRS. Walls and roofs are cut exactly at their borders; a wall on a border belongs to the zone of its
-            building. ``area_m2`` is all of the polygon in the CRS of the city, also beyond the grid. Not with ``svf``.
+            building. ``area_m2`` is all of the polygon in the CRS of the city, also beyond the grid.
         **options : as for :meth:`svf`
             All but ``threads``, ``memory_limit`` and ``progress`` are for these alone.
 
@@ -58,24 +57,21 @@ class CellsOfCity(OpenCity):
         import shapely.geometry
 
         package = self._open_package()
-        if zones is not None:
-            return self._zones(package, zones, svf, Evaluation(options=options))
         evaluation = Evaluation(options=options)
         spacing = None if svf is None else _arguments.number("svf", svf)
+        if zones is not None:
+            return self._zones(package, zones, spacing, evaluation)
         found = _runtime.cells_of(package, spacing, evaluation.settings(), evaluation.caller())
         corners = found["corners_m"]
         middle = 0.5 * (corners[:, 0] + corners[:, 2])
         columns = {"i": found["i"], "j": found["j"], "x_m": middle[:, 0], "y_m": middle[:, 1], **found["columns"]}
         return geopandas.GeoDataFrame(_with_counts(columns), geometry=[shapely.geometry.Polygon(square) for square in corners], crs=self.crs)
 
-    def _zones(self, package: Any, zones: Any, svf: float | None, evaluation: Evaluation) -> geopandas.GeoDataFrame:
+    def _zones(self, package: Any, zones: Any, spacing: float | None, evaluation: Evaluation) -> geopandas.GeoDataFrame:
         import geopandas
 
-        if svf is not None:
-            raise InvalidArgument("svf is of the cells of the grid: leave it or zones out")
         rings = zones_of(zones, self.crs_wkt)
-        evaluation.settings()
-        columns = _with_counts(_runtime.zones_of(package, rings, evaluation.caller()))
+        columns = _with_counts(_runtime.zones_of(package, rings, spacing, evaluation.settings(), evaluation.caller()))
         return geopandas.GeoDataFrame(columns, geometry=zones.geometry.values, index=zones.index, crs=zones.geometry.crs)
 
 

@@ -163,7 +163,11 @@ def cells_of(
     package: Package, svf_spacing_m: float | None, settings: EvaluationSettings, caller: CallerSettings
 ) -> _Cells: ...
 def zones_of(
-    package: Package, zones_m: Sequence[Sequence[Sequence[tuple[float, float]]]], caller: CallerSettings
+    package: Package,
+    zones_m: Sequence[Sequence[Sequence[tuple[float, float]]]],
+    svf_spacing_m: float | None,
+    settings: EvaluationSettings,
+    caller: CallerSettings,
 ) -> dict[str, _Floats64]: ...
 def evaluate_points(
     package: Package, points: PointColumns, placing: Placing, settings: EvaluationSettings, caller: CallerSettings
