@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -68,8 +69,30 @@ std::string unknown_option(const CLI::App& app, const std::string& word) {
                      nearest ? "; did you mean --" + *nearest + "?" : "");
 }
 
+/// The option that was given a file or folder of the same kind as this one; null: none.
+const CLI::Option* option_of_one_path(const CLI::App& app, const std::filesystem::path& path) {
+  std::error_code unread;
+  const auto is_like = [&](const std::filesystem::path& given) {
+    return std::filesystem::exists(given, unread) && given.extension() == path.extension() &&
+           std::filesystem::is_directory(given, unread) == std::filesystem::is_directory(path, unread);
+  };
+  const CLI::Option* found = nullptr;
+  if (!std::filesystem::exists(path, unread)) return found;
+  for_each_option(app, [&](const CLI::Option& o) {
+    const bool takes_one = o.get_lnames().empty() ? false : o.get_items_expected_max() == 1;
+    if (takes_one && o.count() == 1 && is_like(o.results().front())) found = &o;
+  });
+  return found;
+}
+
 /// One argument too many.
-std::string unknown_argument(const std::string& word) {
+std::string unknown_argument(const CLI::App& app, const std::string& word) {
+  if (const CLI::Option* const option = option_of_one_path(app, word)) {
+    const bool is_folder = std::filesystem::is_directory(word);
+    return fmt::format("{} is one too many: {} takes one {}, and has {}; {}", word, option->get_name(),
+                       is_folder ? "folder" : "file", option->results().front(),
+                       is_folder ? "give the folder that holds both" : "give each file a run of its own, or make one of them");
+  }
   const bool is_number = !word.empty() && word.find_first_not_of("0123456789.,-+") == word.npos;
   return word + ": nothing is known of this argument; " +
          (is_number ? "numbers of one option are joined by commas, without blanks" : "put what has spaces into quotes");
@@ -191,7 +214,7 @@ std::string wrong_usage_text(const CLI::App& app, const CLI::ParseError& error) 
   const auto misspelt = std::ranges::find_if(rest, is_like_option);
   if (misspelt != rest.end()) return unknown_option(app, *misspelt);
   std::string what = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unknown_argument(rest.empty() ? what : rest.front());
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unknown_argument(app, rest.empty() ? what : rest.front());
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     const auto two = two_of_a_choice(app);
     return two ? *two : missing_text(app, what);

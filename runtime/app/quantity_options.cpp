@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
@@ -73,6 +74,19 @@ bool is_quantity(const std::string& word) {
   return ask_for(word, alone);
 }
 
+/// The quantity that has a column or band of this name; none: empty.
+std::string_view quantity_of_band(const std::string& band) {
+  for (const QuantityWord& q : quantity_words()) {
+    Quantities alone;
+    alone.wall_sectors = 8;  // the names of 4 are among them
+    alone.svf_total_bounds = true;
+    (void)ask_for(q.word, alone);
+    const std::vector<std::string> bands = columns_of(alone);
+    if (std::ranges::find(bands, band) != bands.end()) return q.word;
+  }
+  return {};
+}
+
 void add(const std::string& word, const RawQuantities& raw, Quantities& quantities) {
   if (word == "svf") return;
   // Where the sun stands depends on the package
@@ -81,6 +95,8 @@ void add(const std::string& word, const RawQuantities& raw, Quantities& quantiti
   if (word == "sunlit") return;
   if (ask_for(word, quantities)) return;
   if (word.empty()) throw CLI::ValidationError("--quantity", "\"" + raw.quantities + "\" has an empty name: leave a comma out");
+  if (const std::string_view quantity = quantity_of_band(word); !quantity.empty())
+    throw CLI::ValidationError("--quantity", fmt::format("\"{}\" is a band of --quantity {}", word, quantity));
   std::vector<std::string> words{"svf"};
   for (const QuantityWord& known : quantity_words()) words.emplace_back(known.word);
   throw CLI::ValidationError("--quantity",
