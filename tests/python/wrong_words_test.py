@@ -207,7 +207,7 @@ def test_what_is_no_package(tmp_path: Path) -> None:
 def test_doubts_of_a_report_name_arguments(tmp_path: Path) -> None:
     houses = [shapely.geometry.box(550000 + 30 * n, 5500000, 550010 + 30 * n, 5500012) for n in range(12)]
     frame = geopandas.GeoDataFrame({"Etagen": [2 + n // 4 for n in range(12)]}, geometry=houses, crs="EPSG:32632")
-    with pytest.warns(farlod.ProblemsWarning):
+    with pytest.warns(farlod.ProblemsWarning, match="the whole file: Etagen holds whole numbers.* Give heights.storeys Etagen"):
         city = farlod.pack(frame, tmp_path / "p.farlod", heights="Etagen")
     [doubt] = [problem for problem in city.report.problems if problem.code == 208]
     assert "heights.storeys Etagen in place of heights.height" in doubt.detail

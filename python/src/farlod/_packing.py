@@ -72,8 +72,12 @@ class Report:
         return pandas.DataFrame([vars(problem) for problem in self.problems], columns=list(Problem.__dataclass_fields__))
 
     def __str__(self) -> str:
-        kinds = Counter((p.code, p.problem, p.effect) for p in self.problems)
-        return "\n".join(f"{count} x {code} {name} ({effect})" for (code, name, effect), count in sorted(kinds.items()))
+        """A line for each kind of problem, with what is wrong with the first of them, and what to do."""
+        counts = Counter(p.code for p in self.problems)
+        first = {p.code: p for p in reversed(self.problems)}
+        return "\n".join(
+            f"{counts[code]} x {code} {p.problem} ({p.effect}): {p.place}: {p.detail}" for code, p in sorted(first.items())
+        )
 
 
 @dataclass(frozen=True)
