@@ -24,6 +24,14 @@ inline constexpr std::array<std::string_view, 2> above_ground_names{"height_abov
 inline constexpr std::array<std::string_view, 2> azimuth_names{"azimuth", "azimuth_deg"};
 inline constexpr std::array<std::string_view, 2> tilt_names{"tilt", "tilt_deg"};
 
+/// The names of the columns that there are, so many that a line of a message holds them.
+[[nodiscard]] inline std::string listed(std::span<const std::string> names) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (std::size_t n = 0; n < std::min(names.size(), most); ++n) text.append(n > 0 ? ", \"" : "\"").append(names[n]).append("\"");
+  return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
+}
+
 /// Names of columns of longitudes and latitudes.
 [[nodiscard]] inline bool are_degrees(std::string_view x_name) {
   const std::string name = lower_case(std::string(x_name));

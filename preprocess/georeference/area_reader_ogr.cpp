@@ -109,8 +109,8 @@ Area points_of(OGRLayer& table, const std::filesystem::path& file) {
     y = point_columns::find_column(names, point_columns::y_names, refuse);
   }
   if (!x || !y || *y >= names.size())
-    throw InputError(file.string() +
-                     ": no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
+    throw InputError(file.string() + ": no column is named x and y (or easting and northing, or lon and lat), of " +
+                     point_columns::listed(names) + "; name them in the first row");
   Area area;
   for (Feature feature(table.GetNextFeature()); feature; feature.reset(table.GetNextFeature()))
     area.points.push_back({number_in(feature->GetFieldAsString(static_cast<int>(*x)), feature, file),

@@ -110,14 +110,17 @@ PlanHeights heights_at(const Package& package, Point2d p, std::size_t threads) {
   return plan_heights(package, {p - Point2d{0.5 * pixel_m, -0.5 * pixel_m}, pixel_m, 1, 1}, run);
 }
 
-std::string reason_of_no_answer(const Package& package, const NamedPoints& named, std::size_t n, std::size_t threads) {
+WhyUnanswered reason_at(const Package& package, const NamedPoints& named, std::size_t n, std::size_t threads) {
   constexpr double least_building_m = 0.1;
   const PlanHeights heights = heights_at(package, {named.x_m[n], named.y_m[n]}, threads);
   const double ground_m = heights.ground_m.front(), highest_m = heights.highest_m.front(), z_m = named.z_m[n];
-  if (z_m < ground_m) return fmt::format("its height of {:.2f} m is below the ground, which is at {:.2f} m", z_m, ground_m);
+  if (z_m < ground_m)
+    return {"below the ground", fmt::format("its height of {:.2f} m is below the ground, which is at {:.2f} m", z_m, ground_m)};
   if (highest_m - ground_m > least_building_m)
-    return fmt::format("inside a building, whose top is {:.1f} m above the ground", highest_m - ground_m);
-  return std::isnan(highest_m) ? "there is no ground" : "inside a building or below the ground";
+    return {"inside a building", fmt::format("inside a building, whose top is {:.1f} m above the ground", highest_m - ground_m)};
+  if (std::isnan(highest_m)) return {"no ground", "there is no ground"};
+  const std::string either = "inside a building or below the ground";
+  return {either, either};
 }
 
 }  // namespace
@@ -163,15 +166,34 @@ std::optional<std::string> note_of_heights(const NamedPoints& named, const Point
       named.doubtful_z, below);
 }
 
-std::optional<std::string> note_of_unanswered(const Package& package, const NamedPoints& named, const PointAnswers& answers,
-                                              std::size_t threads) {
+Reasons reasons_of_unanswered(const Package& package, const NamedPoints& named, const PointAnswers& answers,
+                              std::size_t threads) {
+  // Each looks up the heights at its place
+  constexpr std::size_t most_looked_up = 1000;
+  const PackageDescription& city = package.description();
+  Reasons reasons;
+  std::size_t looked_up = 0;
+  for (std::size_t n = 0; n < named.ids.size(); ++n) {
+    if (!std::isnan(answers.svf[n])) continue;
+    if (!named.has_place(n))
+      reasons[n] = {"no place", {}};
+    else if (!is_in_reach(named, n, city))
+      reasons[n] = {"beyond the grid", {}};
+    else
+      reasons[n] = ++looked_up > most_looked_up ? WhyUnanswered{"inside a building or without ground", {}}
+                                                : reason_at(package, named, n, threads);
+  }
+  return reasons;
+}
+
+std::optional<std::string> note_of_unanswered(const NamedPoints& named, const Reasons& reasons, const PackageDescription& city) {
   constexpr std::size_t most_named = 5;
   std::size_t count = 0;
   std::string first;
-  for (const std::size_t n : rows_in_reach(named, package.description())) {
-    if (!std::isnan(answers.svf[n]) || ++count > most_named) continue;
+  for (const auto& [n, reason] : reasons) {
+    if (!is_in_reach(named, n, city) || ++count > most_named) continue;
     first += fmt::format("{}{} at {:.10g}, {:.10g} ({})", first.empty() ? "" : "; ", named.ids[n], named.x_m[n], named.y_m[n],
-                         reason_of_no_answer(package, named, n, threads));
+                         reason.detail);
   }
   if (count == 0) return std::nullopt;
   return fmt::format("{} of {} points {} no answer: {}{}.", count, named.ids.size(), count == 1 ? "has" : "have", first,

@@ -25,9 +25,13 @@ void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, c
 [[nodiscard]] std::optional<std::string> note_of_heights(const NamedPoints& named, const PointAnswers& answers,
                                                          const PackageDescription& city);
 
+/// Why points have no answer. Of many, the first are looked at one by one.
+[[nodiscard]] Reasons reasons_of_unanswered(const Package& package, const NamedPoints& named, const PointAnswers& answers,
+                                            std::size_t threads);
+
 /// What to tell of points that have a place in reach and no answer: the first of them, and why.
-[[nodiscard]] std::optional<std::string> note_of_unanswered(const Package& package, const NamedPoints& named,
-                                                            const PointAnswers& answers, std::size_t threads);
+[[nodiscard]] std::optional<std::string> note_of_unanswered(const NamedPoints& named, const Reasons& reasons,
+                                                            const PackageDescription& city);
 
 /// Evaluates the points that have a place in reach; the others have no answer. Throws PointsError for a point that is none, since
 /// it is of an input, and what the library throws.

@@ -34,6 +34,13 @@ std::vector<Point2d> places_of_rows(const NamedPoints& named, std::span<const st
   return places;
 }
 
+/// The places of all rows, NaN where one has none.
+std::vector<Point2d> places_of(const NamedPoints& named) {
+  std::vector<Point2d> places;
+  for (std::size_t n = 0; n < named.ids.size(); ++n) places.push_back({named.x_m[n], named.y_m[n]});
+  return places;
+}
+
 /// Points that cannot be projected lose their place, and are counted; all of them are refused.
 void move_to_package_crs(NamedPoints& named, const std::string& crs, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
@@ -143,6 +150,45 @@ bool is_near_as_degrees(Point2d p, const PackageDescription& package) {
   return near_as_degrees(NamedPoints(std::move(one)), package).has_value();
 }
 
+/// Whether a place, in a CRS or that of the package, lies near the city.
+bool lies_near(Point2d p, const std::string& crs, const PackageDescription& package) {
+  RequestedPoints one;
+  one.points.emplace_back();
+  std::tie(one.points.back().x, one.points.back().y) = std::pair(p.x, p.y);
+  NamedPoints named(std::move(one));
+  try {
+    if (!crs.empty()) move_to_package_crs(named, crs, package);
+  } catch (const InputError&) {
+    return false;  // it has no place there
+  }
+  return near_count(named, package) > 0;
+}
+
+/// What a place that is far from the city, in a CRS or that of the package, looks like.
+std::string looks_of(Point2d p, const std::string& crs, const PackageDescription& package) {
+  const Point2d swapped{p.y, p.x};
+  const std::string wgs84 = "OGC:CRS84";
+  if (lies_near(swapped, crs, package)) return "with x and y exchanged it would lie at the city";
+  if (crs != wgs84 && lies_near(p, wgs84, package)) return "it would lie at the city as longitude and latitude";
+  if (crs != wgs84 && lies_near(swapped, wgs84, package)) return "it would lie at the city as latitude and longitude";
+  if (!crs.empty() && is_near(p, package)) return "it would lie at the city in its CRS, " + package.crs_name;
+  return "check its coordinates, and whether they are in another CRS";
+}
+
+/// Tells of the points that lie far from the city while others lie there. `given` are all points in the CRS that they have.
+void tell_far_points(std::span<const Point2d> given, const std::string& crs, const PackageDescription& package,
+                     NamedPoints& named) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t n = 0; n < given.size(); ++n)
+    if (named.has_place(n) && !is_near({named.x_m[n], named.y_m[n]}, package) && count++ == 0) first = n;
+  if (count == 0 || near_count(named, package) == 0) return;
+  const Point2d city = 0.5 * (package.outline_projected.low + package.outline_projected.high);
+  named.notes.push_back(fmt::format(
+      "{} of {} points {} more than 100 km from the city: {}point {} in row {}, at {:.10g}, {:.10g}, {:.0f} km away; {}.", count,
+      given.size(), count == 1 ? "lies" : "lie", count == 1 ? "" : "the first is ", named.ids[first], first + 1, given[first].x,
+      given[first].y, norm(Point2d{named.x_m[first], named.y_m[first]} - city) / 1000.0, looks_of(given[first], crs, package)));
+}
+
 /// What is said of the CRS of points, and the first of them as it was given.
 struct GivenPlaces {
   bool says_crs, may_say_crs;
@@ -164,6 +210,20 @@ NamedPoints near_city(NamedPoints named, const GivenPlaces& given, const Package
                                 is_swapped          ? "give the longitude before the latitude."
                                 : given.may_say_crs ? "check the coordinates, and their CRS (--points-crs)."
                                                     : "check the coordinates: they are of that CRS, or longitude and latitude."));
+}
+
+}  // namespace
+
+namespace {
+
+/// Gives an attribute a name that neither another one nor a column of the output has.
+void rename_attribute(std::size_t k, const std::vector<std::string>& own, NamedPoints& named) {
+  const std::string name = named.attributes.names()[k];
+  std::string free = name + "_input";
+  while (has_column(own, free) || has_column(named.attributes.names(), free)) free += "_input";
+  named.attributes.rename(k, free);
+  named.notes.push_back("The field \"" + name + "\" of the points comes back as \"" + free +
+                        "\": a column of the output has its name.");
 }
 
 }  // namespace
@@ -216,13 +276,22 @@ void NamedPoints::rename_attributes_that_clash(const AnswerColumns& columns) {
   const std::vector<std::string> own = own_columns_of_points(has_normals(), columns);
   for (std::size_t k = 0; k < attributes.names().size(); ++k) {
     const std::string name = attributes.names()[k];
-    if (!has_column(own, name)) continue;
-    std::string free = name + "_input";
-    while (has_column(own, free) || has_column(attributes.names(), free)) free += "_input";
-    attributes.rename(k, free);
-    notes.push_back("The field \"" + name + "\" of the points comes back as \"" + free +
-                    "\": a column of the output has its name.");
+    const bool is_repeated =
+        has_column({attributes.names().begin(), attributes.names().begin() + static_cast<std::ptrdiff_t>(k)}, name);
+    if (is_repeated || has_column(own, name)) rename_attribute(k, own, *this);
   }
+}
+
+void NamedPoints::add_reasons(const Reasons& reasons, const AnswerColumns& columns) {
+  if (reasons.empty()) return;
+  const std::string reason = "reason";
+  const std::vector<std::string> own = own_columns_of_points(has_normals(), columns);
+  for (std::size_t k = 0; k < attributes.names().size(); ++k)
+    if (has_column({reason}, attributes.names()[k])) rename_attribute(k, own, *this);
+  attributes.add_column(reason, ids.size(), [&](std::size_t n) {
+    const auto found = reasons.find(n);
+    return found == reasons.end() ? std::string() : found->second.words;
+  });
 }
 
 NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package) {
@@ -239,9 +308,14 @@ NamedPoints requested_points(const SvfOptions& options, const PackageDescription
   RequestedPoints read = read_point_file(options.points_file, options.points_layer);
   const std::string crs = crs_of(read, options, read.notes);
   NamedPoints named(std::move(read));
+  const std::vector<Point2d> given = places_of(named);
   const Point2d first = first_of(named);
   if (!crs.empty()) move_to_package_crs(named, crs, package);
-  return near_city(std::move(named), {!crs.empty(), true, first}, package);
+  named = near_city(std::move(named), {!crs.empty(), true, first}, package);
+  const Point2d first_m = first_of(named);
+  const bool were_degrees = crs.empty() && (first_m.x != first.x || first_m.y != first.y);
+  tell_far_points(given, were_degrees ? "OGC:CRS84" : crs, package, named);
+  return named;
 }
 
 PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@
 #include "results/table/table_writer.hpp"
 
 namespace farlod {
+
+/// Why a point has no answer.
+struct WhyUnanswered {
+  std::string words;   ///< the same of all such points, without a comma
+  std::string detail;  ///< with its heights, where they are looked up
+};
+using Reasons = std::map<std::size_t, WhyUnanswered>;  ///< by the numbers of points
 
 /// Points as the library takes them, and what is written of them besides.
 struct NamedPoints {
@@ -31,8 +39,11 @@ struct NamedPoints {
   explicit NamedPoints(RequestedPoints requested);
   /// Leaves out the points outside of a region.
   void keep(const Region& region);
-  /// An attribute that is called like one of our columns comes back under another name: a measured `svf` beside the computed one.
+  /// An attribute that is called like one of our columns, or like one before it, comes back under another name: a measured
+  /// `svf` beside the computed one.
   void rename_attributes_that_clash(const AnswerColumns& columns);
+  /// Adds the column `reason`, which says in a few words why a point has no answer, if one has none.
+  void add_reasons(const Reasons& reasons, const AnswerColumns& columns);
   [[nodiscard]] bool has_normals() const { return !tilt.empty(); }
   [[nodiscard]] bool has_place(std::size_t n) const { return !std::isnan(x_m[n]); }
   [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt, above_ground_m}; }

@@ -22,9 +22,10 @@ std::optional<std::string> note_of_ignored_crowns(const Package& package, const 
   if (further.any_of_canopies() || further.any_dimmed_by_crowns() || further.any_seen_by_rays()) return std::nullopt;
   const std::uint64_t crowns = inventory_of(package).crowns.all();
   if (crowns == 0) return std::nullopt;
-  return fmt::format(
-      "The city has {} crowns of trees, and what was asked for looks through them: --quantity svf_total counts them.",
-      with_commas(crowns));
+  // Nobody weighs svf_total by solid angle
+  const bool is_solid = options.evaluation.weight == SkyWeight::solid_angle;
+  return fmt::format("The city has {} crowns of trees, and what was asked for looks through them: --quantity {} counts them.",
+                     with_commas(crowns), is_solid ? "view_factors, or without --sky solid svf_total," : "svf_total");
 }
 
 /// What to tell of light on pitched roofs: the pixels of a raster are level.

@@ -225,6 +225,16 @@ std::vector<std::string> notes_of_points(const NamedPoints& named, const PointAn
   return notes;
 }
 
+/// Adds to the table why points have no answer, and returns all that is to be told.
+std::vector<std::string> notes_with_reasons(const Package& package, const AnswerColumns& columns, const PointAnswers& answers,
+                                            std::size_t threads, NamedPoints& named) {
+  const auto reasons = reasons_of_unanswered(package, named, answers, threads);
+  named.add_reasons(reasons, columns);
+  std::vector<std::string> notes = notes_of_points(named, answers, package.description());
+  if (const auto note = note_of_unanswered(named, reasons, package.description())) notes.push_back(*note);
+  return notes;
+}
+
 /// Where no point has an answer since its height was taken for another one, that is what to say.
 void require_heights_above_ground(const NamedPoints& named, const PointAnswers& answers, const PackageDescription& city) {
   const auto note = answers.summary.receivers == 0 ? note_of_heights(named, answers, city) : std::nullopt;
@@ -309,7 +319,7 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   if (!options.writes()) return written;
   require_heights_above_ground(named, answers, package.description());
   require_answers(written.summary, options, package.description());
-  if (const auto note = note_of_unanswered(package, named, answers, run.threads)) written.notes.push_back(*note);
+  written.notes = notes_with_reasons(package, columns, answers, run.threads, named);
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
   RunHistogram histogram(options);

@@ -43,7 +43,8 @@ PointFields columns_of_header(const TextRecord& header, const std::filesystem::p
   const auto refuse_header = [&](const std::string& what) { refuse(path, header.line, what); };
   PointFields columns = point_fields(header.fields, PlacesIn::fields, refuse_header);
   if (!columns.x || !columns.y)
-    refuse_header("no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
+    refuse_header("no column is named x and y (or easting and northing, or lon and lat), of " +
+                  point_columns::listed(header.fields) + "; name them in the first row");
   return columns;
 }
 
@@ -63,6 +64,7 @@ double coordinate(const TextRecord& record, std::size_t column, const std::strin
   if (column >= record.fields.size())
     refuse(path, record.line, "the row ends before " + name + "; give each row as many fields as the first");
   const std::optional<double> value = number_in(record.fields[column]);
+  if (record.fields[column].empty()) refuse(path, record.line, name + " is empty; write a number like 1234.5");
   if (!value) refuse(path, record.line, "\"" + record.fields[column] + "\" is not a number (" + name + "); write it like 1234.5");
   return *value;
 }
@@ -153,9 +155,8 @@ class UnreadRows {
     if (!first_) return;
     const std::string lines = count_ == 1 ? "" : " (lines " + lines_ + (count_ > lines_named ? ", …)" : ")");
     if (10 * count_ > rows)
-      throw PointsError(
-          std::string(first_->what()) +
-          (count_ == 1 ? "" : "; rows that cannot be read: " + std::to_string(count_) + " of " + std::to_string(rows) + lines));
+      throw PointsError(std::string(first_->what()) + "; rows that cannot be read: " + std::to_string(count_) + " of " +
+                        std::to_string(rows) + lines + ", where a tenth at the most may be: " + std::to_string(rows / 10));
     points.skipped_features = count_;
     points.notes.push_back(std::string(first_->what()) + ". " + std::to_string(count_) + " of " + std::to_string(rows) +
                            " rows cannot be read and " + (count_ == 1 ? "has" : "have") + " no answer" + lines + ".");

@@ -17,6 +17,18 @@ void Attributes::add_row(std::span<const std::string> fields) {
   }
 }
 
+void Attributes::add_column(const std::string& name, std::size_t rows, const std::function<std::string(std::size_t)>& field_of) {
+  std::vector<std::string> names = names_, fields(names_.size() + 1);
+  names.push_back(name);
+  Attributes wider(std::move(names));
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < names_.size(); ++column) fields[column] = value(row, column);
+    fields.back() = field_of(row);
+    wider.add_row(fields);
+  }
+  *this = std::move(wider);
+}
+
 std::string_view Attributes::value(std::size_t row, std::size_t column) const {
   const std::size_t n = row * names_.size() + column;
   const std::size_t begin = n == 0 ? 0 : ends_[n - 1];

@@ -27,6 +27,8 @@ class Attributes {
 
   /// Adds the row of the next point, in the order of the names. A field that the row lacks is empty.
   void add_row(std::span<const std::string> fields);
+  /// Adds a column behind the others, with a field for each of `rows` points.
+  void add_column(const std::string& name, std::size_t rows, const std::function<std::string(std::size_t)>& field_of);
   [[nodiscard]] std::size_t row_count() const { return names_.empty() ? 0 : ends_.size() / names_.size(); }
   [[nodiscard]] std::string_view value(std::size_t row, std::size_t column) const;
 

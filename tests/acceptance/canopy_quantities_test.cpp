@@ -107,6 +107,10 @@ TEST_F(TreeTown, HasTheTotalWhereNobodySaysWhatToCompute) {
   // Else it is told what svf looks through
   EXPECT_THAT(header_of("--quantity svf"), ElementsAre("id", "x_m", "y_m", "z_m", "height_above_ground_m", "svf"));
   EXPECT_THAT(folder.run("farlod-svf b.farlod -o o.asc --grid 8").out, HasSubstr("20 crowns of trees"));
+  // Nobody weighs svf_total by solid angle
+  const std::string solid = "farlod-svf b.farlod -o o.asc --grid 8 --sky solid";
+  EXPECT_THAT(folder.run(solid).out, HasSubstr("--quantity view_factors, or without --sky solid svf_total, counts them."));
+  EXPECT_EQ(folder.run("farlod-svf b.farlod -o o.tif --grid 8 --sky solid --quantity view_factors").exit_code, 0);
   EXPECT_THAT(folder.run("farlod-svf a.farlod -o o.asc --grid 8").out, testing::Not(HasSubstr("crowns")));
 }
 

@@ -62,11 +62,13 @@ TEST_F(PackedTown, RowsThatLieElsewhereHaveNoAnswerAndCountInNoFigure) {
   folder.write("some.csv", "id,x,y\na," + text_of(street_crossing) + "\nb," +
                                text_of(Point2d{street_crossing.y, street_crossing.x}) + "\nc,9.0,49.65\nd,1e12,0\n");
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --summary s.json --points some.csv");
-  EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("1 receiver, "), HasSubstr(", 3 beyond the grid"),
-                    HasSubstr("3 of 4 points lie more than 200 m beyond the grid of the city and have no answer; the "
-                              "first is point b at "),
-                    Not(HasSubstr("around the grid"))));
+  EXPECT_THAT(
+      outcome.out,
+      AllOf(HasSubstr("1 receiver, "), HasSubstr(", 3 beyond the grid"),
+            HasSubstr("3 of 4 points lie more than 200 m beyond the grid of the city and have no answer; the "
+                      "first is point b at "),
+            HasSubstr("3 of 4 points lie more than 100 km from the city: the first is point b in row 2, at 5"),
+            HasSubstr(" 7071 km away; with x and y exchanged it would lie at the city."), Not(HasSubstr("around the grid"))));
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), 4U);
   for (const std::size_t n : {1U, 2U, 3U})
@@ -92,6 +94,11 @@ TEST_F(PackedTown, RowsOfExchangedDegreesHaveNoAnswerBesideOthers) {
   }
   EXPECT_EQ(table("o.csv").text(2, "x_m"), "");
   EXPECT_EQ(table("o.csv").text(3, "svf"), table("o.csv").text(0, "svf"));
+  EXPECT_EQ(table("o.csv").header(),
+            (std::vector<std::string>{"id", "lon", "lat", "reason", "x_m", "y_m", "z_m", "height_above_ground_m", "svf"}));
+  EXPECT_EQ(table("o.csv").text(0, "reason"), "");
+  EXPECT_EQ(table("o.csv").text(1, "reason"), "beyond the grid");
+  EXPECT_EQ(table("o.csv").text(2, "reason"), "no place");
   const nlohmann::json features = folder.json_of("o.geojson").at("features");
   EXPECT_TRUE(features.at(2).at("geometry").is_null());
   EXPECT_EQ(features.at(2).at("properties").at("lat"), 139.6);
@@ -114,6 +121,41 @@ TEST_F(PackedTown, RowsThatCannotBeReadStayInTheTable) {
   EXPECT_EQ(folder.json_of("s.json").at("receivers"), 19);
   EXPECT_EQ(folder.json_of("s.json").at("skipped_features"), 1);
   folder.must("farlod-svf a.farlod -o again.csv --points o.csv");
+}
+
+/// One of them looks like another CRS.
+TEST_F(PackedTown, APlaceFarFromTheOthersIsToldByWhatItLooksLike) {
+  const auto told_of = [&](const std::string& header, const std::string& usual, const std::string& far) {
+    folder.write("some.csv", header + "\n" + usual + "\n" + far + "\n" + usual + "\n");
+    return folder.run("farlod-svf a.farlod -o o.csv --points some.csv").out;
+  };
+  const std::string here = text_of(street_crossing);
+  EXPECT_THAT(told_of("x,y", here, "9.0,49.655"), HasSubstr("point 2 in row 2, at 9, 49.655, 5"));
+  EXPECT_THAT(told_of("x,y", here, "9.0,49.655"), HasSubstr("it would lie at the city as longitude and latitude."));
+  EXPECT_THAT(told_of("x,y", here, "49.655,9.0"), HasSubstr("it would lie at the city as latitude and longitude."));
+  EXPECT_THAT(told_of("lon,lat", "9.0,49.655", "49.655,9.0"), HasSubstr("with x and y exchanged it would lie at the city."));
+  EXPECT_THAT(told_of("x,y", here, "100000,200000"), HasSubstr("check its coordinates, and whether they are in another CRS."));
+  EXPECT_THAT(told_of("x,y", here, here), Not(HasSubstr("100 km")));
+}
+
+/// Empty fields did not say why.
+TEST_F(PackedTown, RowsWithoutAnswersSayWhy) {
+  const Point2d hall = p_projected(small_town().front().centre);
+  folder.write("some.csv", "x,y,Reason\n" + text_of(hall) + ",repairs\n" + text_of(street_crossing) + ",\n");
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points some.csv");
+  EXPECT_THAT(outcome.out, HasSubstr("The field \"Reason\" of the points comes back as \"Reason_input\""));
+  EXPECT_EQ(table("o.csv").text(0, "reason"), "inside a building");
+  EXPECT_EQ(table("o.csv").text(0, "Reason_input"), "repairs");
+  EXPECT_EQ(table("o.csv").text(1, "reason"), "");
+  folder.write("twice.csv", "id,name,x,y,Name\n1,a," + text_of(street_crossing) + ",b\n");
+  folder.must("farlod-svf a.farlod -o twice.gpkg --points twice.csv");
+  folder.must("farlod-svf a.farlod -o twice_svf.csv --points twice.csv");
+  EXPECT_EQ(table("twice_svf.csv").text(0, "name"), "a");
+  EXPECT_EQ(table("twice_svf.csv").text(0, "Name_input"), "b");
+  folder.write("all.csv", "x,y,Reason\n" + text_of(street_crossing) + ",repairs\n");
+  folder.must("farlod-svf a.farlod -o all_svf.csv --points all.csv");
+  EXPECT_EQ(table("all_svf.csv").header(),
+            (std::vector<std::string>{"id", "Reason", "x_m", "y_m", "z_m", "height_above_ground_m", "svf"}));
 }
 
 class HighTown : public PackedTown {

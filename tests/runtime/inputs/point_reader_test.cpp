@@ -94,7 +94,8 @@ TEST(PointReader, AzimuthAndTiltAreANormal) {
 
 TEST(PointReader, TheRowsOfARefusedTableAreCounted) {
   EXPECT_THAT(complaint_about("lon,lat\n1,1\nfoo,2\nbar,3\n"),
-              AllOf(HasSubstr("points.csv:3: \"foo\" is not a number (lon)"), HasSubstr("cannot be read: 2 of 3 (lines 3, 4)")));
+              AllOf(HasSubstr("points.csv:3: \"foo\" is not a number (lon)"),
+                    HasSubstr("cannot be read: 2 of 3 (lines 3, 4), where a tenth at the most may be: 0")));
 }
 
 TEST(PointReader, DegreesComeBackBesideTheMetresOfAnswers) {
@@ -126,7 +127,7 @@ TEST(PointReader, WithoutHeaderTheColumnsAreXYZ) {
 TEST(PointReader, ABadNumberIsNamedWithItsLine) {
   EXPECT_THAT(complaint_about("x,y\n1,2\n\n3,4m\n"), AllOf(HasSubstr("points.csv:4: "), HasSubstr("\"4m\" is not a number (y)")));
   EXPECT_THAT(complaint_about("id,x,y\n\"two\nlines\",1,2\nb,,4\n"),
-              AllOf(HasSubstr("points.csv:4: "), HasSubstr("\"\" is not a number (x)")));
+              AllOf(HasSubstr("points.csv:4: "), HasSubstr("x is empty; write a number")));
   EXPECT_THAT(complaint_about("x,y\nnan,2\n"), HasSubstr("points.csv:2: "));
   EXPECT_THAT(complaint_about("x,y\n1,1e999\n"), HasSubstr("points.csv:2: "));
   EXPECT_THAT(complaint_about("x;y\n1,5;2\n"), HasSubstr("write it like 1234.5"));
@@ -185,7 +186,11 @@ TEST(PointReader, AShortRowIsNamed) {
 }
 
 TEST(PointReader, UnknownOrAmbiguousColumnsAreRefused) {
-  EXPECT_THAT(complaint_about("a,b\n1,2\n"), HasSubstr("points.csv:1: no column is named x and y"));
+  EXPECT_THAT(complaint_about("a,b\n1,2\n"), AllOf(HasSubstr("points.csv:1: no column is named x and y"),
+                                                   HasSubstr("lon and lat), of \"a\", \"b\"; name them")));
+  std::string wide = "c";
+  for (int n = 0; n < 30; ++n) wide += ",c";
+  EXPECT_THAT(complaint_about(wide + "\n1\n"), HasSubstr("\"c\" and 11 more; name them"));
   EXPECT_THAT(complaint_about("x,y,lon,lat\n1,2,3,4\n"), HasSubstr("\"x\" and \"lon\" mean the same"));
   EXPECT_THAT(complaint_about("1,2,3,4\n"), HasSubstr("points.csv:1: a table without a header row"));
 }
