@@ -123,7 +123,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"far_map_bytes", result.far_map_bytes},
             {"estimate", json_of(result.estimate)}};
   j.update(Json{{"blocks", result.blocks}, {"blocks_finished_before", result.blocks_found}});
-  j.update(Json{{"buildings_left_out", buildings_left_out(report)}, {"looks", json_of(result.looks)}});
+  j.update(Json{{"buildings_left_out", buildings_left_out(report)}, {"looks", json_of(result.looks)}, {"notes", result.notes}});
   if (!result.skipped.empty()) j["skipped"] = result.skipped;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);
   j["settings"] = Json::parse(settings_json);

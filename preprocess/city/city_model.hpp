@@ -206,6 +206,8 @@ struct TerrainRaster {
   double offset_m = 0.0;                       ///< by which the user raised the heights
   bool is_resampled = false;                   ///< its pixels are not those of a file
   bool covers_pixels = false;                  ///< to their outer sides, with walls where steps are (tiles::SteppedSurface)
+  bool is_in_crs_of_city = false;              ///< for want of one of its own
+  std::string source = {};                     ///< the file, or the first of several
 
   [[nodiscard]] Point2d node(std::size_t column, std::size_t row) const {
     return {first.x + static_cast<double>(column) * step_m.x, first.y + static_cast<double>(row) * step_m.y};

@@ -19,6 +19,7 @@
 #include "far_terrain/right_triangles.hpp"
 #include "farlod/error.hpp"
 #include "georeference/height_samples.hpp"
+#include "georeference/input_crs.hpp"
 #include "georeference/raster_reader.hpp"
 #include "package/tiles_writer.hpp"
 #include "plausibility/border_step.hpp"
@@ -372,6 +373,9 @@ double sinking_m(double distance_m) {
 FarTerrain far_terrain_around(std::span<const FarTerrainSource> sources, const std::string& fallback_crs, const CityGround& city,
                               const FarTerrainSettings& settings, Report& report, std::vector<std::string>& notes,
                               const std::stop_token& stop) {
+  for (const FarTerrainSource& source : sources)
+    if (!source.is_ground && fallback_crs.empty() && georeference::read_terrain_extent(source.file).crs_wkt.empty())
+      notes.push_back(georeference::note_of_city_crs(source.file.path.string(), 1, city.georeference));
   const RastersAround around(sources, fallback_crs, city, report);
   FarTerrainSettings coarser = settings;
   for (;; coarser.tolerance *= 2.0) {

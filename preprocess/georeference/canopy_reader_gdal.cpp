@@ -11,6 +11,7 @@
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/height_raster_gdal.hpp"
+#include "georeference/input_crs.hpp"
 #include "georeference/placed_raster_gdal.hpp"
 #include "georeference/raster_reader.hpp"
 
@@ -140,9 +141,11 @@ std::pair<CanopyRaster, std::vector<std::string>> read_canopy(const CanopyFiles&
   const PlacedRaster tops = make_ready(files.tops, files.layer, fallback_crs, *output);
   CanopyRaster canopy = read_tops(tops, *output, wanted, origin_m, stop);
   std::vector<std::string> notes;
+  if (tops.is_in_crs_of_city) notes.push_back(note_of_city_crs(tops.path.string(), 1, georeference));
   if (!tops.note.empty()) notes.push_back(tops.note);
   if (!files.trunks) return {std::move(canopy), std::move(notes)};
   const PlacedRaster trunks = make_ready(*files.trunks, files.layer, fallback_crs, *output);
+  if (trunks.is_in_crs_of_city) notes.push_back(note_of_city_crs(trunks.path.string(), 1, georeference));
   if (!trunks.note.empty()) notes.push_back(trunks.note);
   if (!lie_alike(tops, trunks))
     notes.push_back(files.trunks->string() + " has another extent or resolution than " + files.tops.string() +

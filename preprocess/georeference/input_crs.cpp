@@ -9,6 +9,7 @@
 #include <regex>
 #include <utility>
 
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod::georeference {
@@ -315,6 +316,13 @@ NamedCrs crs_of_input(const std::string& file, const std::string& definition, co
     throw InputError(file + " names a CRS that is not known, \"" + shortened(definition) + "\": give --crs EPSG:n");
   if (auto given = find_crs(fallback)) return *given;
   throw_unknown(fallback, file);
+}
+
+std::string note_of_city_crs(const std::string& file, std::size_t files, const Georeference& georeference) {
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  return file + (files > 1 ? ", one of " + std::to_string(files) + " files, has no CRS: those without one are" : " has no CRS:") +
+         " taken to be in the city's, " + output->name() + " (--crs names another)";
 }
 
 std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const GeoreferenceSettings& settings) {

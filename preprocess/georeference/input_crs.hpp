@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,6 +44,9 @@ struct NamedCrs {
 
 /// The CRS of `file`: its own `definition`, or `fallback` where that is empty or unknown. Throws InputError when both are.
 [[nodiscard]] NamedCrs crs_of_input(const std::string& file, const std::string& definition, const std::string& fallback);
+
+/// What is said of an input, or the first of several, that has no CRS and is taken to be where the city is.
+[[nodiscard]] std::string note_of_city_crs(const std::string& file, std::size_t files, const Georeference& georeference);
 
 /// The CRS that is used for an input, and the problem to report about it.
 struct InputCrs {

@@ -46,11 +46,11 @@ Box2d PlacedRaster::extent() const {
 
 Crs PlacedRaster::take_crs(const std::string& fallback_crs, const Crs& output) {
   const std::string own_wkt = crs_in_place.value_or(wkt_of(file->GetSpatialRef()));
-  const bool unnamed = own_wkt.empty() && fallback_crs.empty();
-  Crs crs = unnamed ? output : crs_of_input(path.string(), own_wkt, fallback_crs).crs;
+  is_in_crs_of_city = own_wkt.empty() && fallback_crs.empty();
+  Crs crs = is_in_crs_of_city ? output : crs_of_input(path.string(), own_wkt, fallback_crs).crs;
   whose_crs = crs_in_place        ? "that of --crs"
               : find_crs(own_wkt) ? "its own CRS"
-              : unnamed           ? "that of the city, since the file names none"
+              : is_in_crs_of_city ? "that of the city, since the file names none"
                                   : "that of --crs, since the file names none that is known";
   GDALRasterBand& band = *file->GetRasterBand(1);
   const double unit_m = named_unit_m(band).value_or(crs.height_unit_m());

@@ -61,6 +61,7 @@ struct PlacedRaster {
   std::optional<std::string> crs_in_place = {};  ///< of that of the file
   std::optional<Crs> own = {};                   ///< the CRS of the file, once it is taken
   std::string whose_crs = {};                    ///< from where it has that, for messages
+  bool is_in_crs_of_city = false;                ///< for want of one of its own, and of --crs
 
   [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : unwarped(); }
   [[nodiscard]] GDALDataset& unwarped() const { return cleared ? *cleared : *file; }

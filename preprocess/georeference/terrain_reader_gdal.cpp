@@ -184,6 +184,7 @@ std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::st
   require_heights(*terrain, ready, of, *output, georeference.origin_m, report);
   shift_heights(*terrain, file.path.string(), own, georeference, report);
   terrain->is_resampled = ready.warped != nullptr;
+  terrain->is_in_crs_of_city = ready.is_in_crs_of_city;
   if (!ready.note.empty()) terrain->notes.push_back(ready.note);
   return terrain;
 }

@@ -126,6 +126,7 @@ TerrainRaster merged(const std::vector<TerrainRaster>& tiles) {
   for (const TerrainRaster& tile : tiles) {
     lay_upon(net, tile);
     net.is_resampled |= tile.is_resampled;
+    net.is_in_crs_of_city |= tile.is_in_crs_of_city;
     net.notes.insert(net.notes.end(), tile.notes.begin(), tile.notes.end());
   }
   return net;
@@ -158,6 +159,8 @@ TerrainRaster read_tiles(std::span<const TerrainFile> files, const std::string& 
 TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string& fallback_crs, const Georeference& georeference,
                            const std::optional<Box2d>& wanted_city, Report& report) {
   TerrainRaster terrain = read_tiles(files, fallback_crs, georeference, wanted_city, report);
+  terrain.source = files.front().path.string();
+  if (terrain.is_in_crs_of_city) terrain.notes.push_back(note_of_city_crs(terrain.source, files.size(), georeference));
   if (!wanted_city) report_surface(files.front().path.string(), plausibility::shape_of(terrain), georeference, report);
   return terrain;
 }

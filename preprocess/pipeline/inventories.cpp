@@ -13,6 +13,7 @@
 #include "base/unread_file.hpp"
 #include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
+#include "georeference/input_crs.hpp"
 #include "georeference/raster_reader.hpp"
 #include "ingest/trees/tree_reader.hpp"
 #include "package/crowns_of_city.hpp"
@@ -126,6 +127,8 @@ ReadTrees bring_to_city(std::vector<SourceTrees> inventories, const StageSetting
     throw_if_cancelled(stop);
     usable.take(inventory.source, [&] {
       given.add(inventory);
+      if (inventory.crs.definition.empty() && fallback_crs.empty())
+        read.notes.push_back(georeference::note_of_city_crs(inventory.source, 1, georeference));
       georeference::locate_trees(inventory, fallback_crs, georeference, report);
       append(read, std::move(inventory));
     });

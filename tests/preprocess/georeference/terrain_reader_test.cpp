@@ -234,7 +234,7 @@ class CanopyReader : public testing::Test {
   }
   [[nodiscard]] static std::pair<CanopyRaster, std::vector<std::string>> read(const CanopyFiles& files,
                                                                               const Box2d& wanted = whole_city) {
-    return read_canopy(files, "", georeference_around({1000.0, 2000.0}, *Crs::find("EPSG:25832")), wanted);
+    return read_canopy(files, "EPSG:25832", georeference_around({1000.0, 2000.0}, *Crs::find("EPSG:25832")), wanted);
   }
 
   scenes::TemporaryFolder folder_;
