@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "farlod/error.hpp"
+#include "plausibility/doubtful_terrain.hpp"
 #include "plausibility/elevations_as_heights.hpp"
 #include "plausibility/ground_at_buildings.hpp"
 
@@ -259,6 +260,17 @@ std::string detail_of(const FileStanding& file, bool is_raster) {
          (is_raster ? "; give all of it with --terrain" : "; --terrain DEM gives all of it");
 }
 
+/// Whether the ground is in another unit. Then it may have bumps as high as roofs, and all comparisons would be in vain.
+bool is_in_another_unit(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
+  const GroundBelowBuildings below = ground_below(located, ground);
+  if (report_unit_of_terrain(below, located, ground, report)) return true;
+  require_ground_without_roofs(located, ground);
+  if (report_steep_terrain(below, located, ground, report)) return true;
+  require_heights_above_ground(located, ground.height_at);
+  report_roofs(located, ground, report);
+  return false;
+}
+
 }  // namespace
 
 Box2d extent_of_survey(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city) {
@@ -272,9 +284,7 @@ Box2d extent_of_survey(const std::optional<TerrainRaster>& terrain, std::span<co
 }
 
 void report_standing(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
-  require_ground_without_roofs(located, ground);
-  require_heights_above_ground(located, ground.height_at);
-  report_roofs(located, ground, report);
+  const bool is_in_vain = is_in_another_unit(located, ground, report);
   const std::vector<FileStanding> files = standing_of_files(located, ground);
   std::size_t all = 0, impossible = 0;
   for (const FileStanding& file : files) all += file.buildings;
@@ -285,9 +295,9 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   };
   for (std::size_t n = 0; n < files.size(); ++n) {
     if (files[n].beyond > 0) tell(ProblemCode::beyond_terrain, n, detail_of(files[n], ground.is_raster), *files[n].first_beyond);
-    const auto offset = offset_of(files[n]);
+    const auto offset = is_in_vain ? std::nullopt : offset_of(files[n]);
     const HangingBuildings& hanging = files[n].hanging;
-    if (!offset && hanging.are_told())
+    if (!offset && !is_in_vain && hanging.are_told())
       tell(ProblemCode::another_datum, n, detail_of(hanging, files[n].buildings, ground.is_raster), hanging.place);
     if (!offset) continue;
     const std::string detail = detail_of(*offset, files[n].buildings, ground);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "city/city_model.hpp"
 #include "farlod/box.hpp"
@@ -19,9 +20,10 @@ using KnownGroundHeightAt = std::function<std::optional<double>(Point2d p_city)>
 /// Where a survey of the ground comes from.
 struct SurveyedGround {
   KnownGroundHeightAt height_at;
-  Box2d extent_city;       ///< of its points
-  bool is_raster = false;  ///< and no relief of a city file
-  double offset_m = 0.0;   ///< by which the user raised it already
+  Box2d extent_city;        ///< of its points
+  bool is_raster = false;   ///< and no relief of a city file
+  double offset_m = 0.0;    ///< by which the user raised it already
+  std::string source = {};  ///< the file, or the first of several
 };
 
 /// The nodes of a terrain that have a height, and the points of a relief.
@@ -40,7 +42,8 @@ struct SurveyedGround {
 ///   (2) beyond_terrain: buildings whose middle is outside of the extent of the survey. Reported once for each file.
 /// Throws InputError when what is told in (1) holds for most of the city, and no town can stand so: its roofs are below the
 /// ground, or its floors 10 m above it; when heights of footprints are elevations (require_heights_above_ground); and when the
-/// ground has roofs in it (require_ground_without_roofs). Roofs without bases are compared, too (report_roofs).
+/// ground has roofs in it (require_ground_without_roofs). Roofs without bases are compared, too (report_roofs). Of ground in
+/// another unit (report_unit_of_terrain, report_steep_terrain), nothing but (2) is told.
 void report_standing(const LocatedCity& located, const SurveyedGround& ground, Report& report);
 
 }  // namespace farlod::plausibility

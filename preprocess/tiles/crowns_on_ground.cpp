@@ -8,6 +8,7 @@
 
 #include "base/cancellation.hpp"
 #include "city/geometry.hpp"
+#include "plausibility/doubtful_trees.hpp"
 
 namespace farlod::tiles {
 namespace {
@@ -94,6 +95,7 @@ class CellHeights {
     if (is_none(top_m)) return std::nullopt;
     const double above_m = is_elevation ? top_m - ground_m : top_m;
     if (is_elevation && above_m < lowest_canopy_m) return std::nullopt;
+    if (above_m > 0.0) heights.add(above_m);
     if (above_m > 0.0 && above_m <= highest_tree_m) return above_m;
     unusable.add(p_city, "a height of " + metres(above_m) + " above the ground");
     return std::nullopt;
@@ -116,11 +118,21 @@ class CellHeights {
 
   CellCount unusable, trunks;
   std::uint64_t without_trunk = 0;
+  plausibility::HeightsOfTrees heights;
 
  private:
   const CanopyRaster& canopy_;
   const TreeSettings& settings_;
 };
+
+/// Told where half of the cells are higher than any tree, as centimetres and elevations are.
+void report_tall(const CanopyRaster& canopy, const CellHeights& cells, Point2d origin_m, Report& report) {
+  const auto doubt = cells.heights.doubt(
+      "gdal_edit.py -scale 0.01 FILE says that they are centimetres, --canopy-absolute that they are elevations");
+  if (!doubt) return;
+  const Point2d p = origin_m + cells.unusable.first_city;
+  report.add({ProblemCode::implausible_size, canopy.source, "the whole file", *doubt, Point3d{p.x, p.y, 0.0}});
+}
 
 }  // namespace
 
@@ -171,6 +183,7 @@ void CrownPlacing::place_canopy(const CanopyRaster& canopy, const Ground& ground
       ++counts_.of_canopy;
     }
   }
+  report_tall(canopy, cells, origin_m_, report_);
   cells.unusable.tell(ProblemCode::unusable_canopy_height, canopy.source, origin_m_, report_);
   if (cells.without_trunk > 0)
     notes_.push_back(canopy.source + ": " + std::to_string(cells.without_trunk) +

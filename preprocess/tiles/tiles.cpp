@@ -383,7 +383,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   if (surveyed)
     plausibility::report_standing(located,
                                   {ground_height, plausibility::extent_of_survey(terrain, located.relief_points),
-                                   terrain.has_value(), terrain ? terrain->offset_m : 0.0},
+                                   terrain.has_value(), terrain ? terrain->offset_m : 0.0, terrain ? terrain->source : ""},
                                   report);
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);

@@ -92,6 +92,54 @@ TEST_F(DoubtfulTerrain, ARasterAmongTheInputsIsToldToBeOne) {
   EXPECT_THAT(far.err, HasSubstr("(that of the city, since the file names none); the city with its cells lies from 4"));
 }
 
+/// Its relief of metres was one of hundreds, without a word.
+TEST_F(DoubtfulTerrain, CentimetresAreToldByTheSlopesBelowFootprints) {
+  folder.write("ground.asc", ascii_grid([](Point2d p) { return 100.0 * (20.0 + 0.02 * p.x + 0.01 * p.y); }));
+  const Outcome outcome = folder.run("farlod-pack town.geojson -o a.farlod --terrain ground.asc --report report.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ground.asc: its heights, from 1"));
+  EXPECT_THAT(outcome.out, HasSubstr("below 36 buildings on "));
+  EXPECT_THAT(outcome.out, HasSubstr("is the terrain in centimetres? gdal_edit.py -scale 0.01 FILE says so"));
+  EXPECT_EQ(folder.json_of("report.json").at(0).at("code"), 208);
+  EXPECT_TRUE(folder.json_of("report.json").at(0).at("lon_lat").is_array());
+}
+
+/// It was taken to be where the city is, without a word.
+TEST_F(DoubtfulTerrain, WhatSaysNoCrsIsToldToBeTakenInThatOfTheCity) {
+  folder.write("ground.asc", ascii_grid(climbing_m));
+  folder.write("crowns.asc", ascii_grid([](Point2d p) { return p.x > 0.0 ? 5.0 : 0.0; }));
+  folder.write("trunks.asc", ascii_grid([](Point2d) { return 1.0; }));
+  folder.write("trees.csv", "x,y,height\n500030,5500010,9\n");
+  const std::string pack =
+      "farlod-pack town.geojson -o a.farlod --force --summary s.json --terrain ground.asc --canopy crowns.asc --trunk trunks.asc "
+      "--trees trees.csv";
+  const Outcome outcome = folder.run(pack);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto notes = folder.json_of("s.json").at("notes").get<std::vector<std::string>>();
+  for (const std::string file : {"ground.asc", "crowns.asc", "trunks.asc", "trees.csv"}) {
+    const std::string note = file + " has no CRS: taken to be in the city's, WGS 84 / UTM zone 32N";
+    EXPECT_THAT(outcome.out, HasSubstr(note));
+    EXPECT_THAT(notes, testing::Contains(HasSubstr(note)));
+  }
+  EXPECT_THAT(folder.run(pack + " --crs EPSG:32632").out, testing::Not(HasSubstr("has no CRS")));
+}
+
+TEST_F(DoubtfulTerrain, CanopiesInCentimetresAreDoubted) {
+  folder.write("crowns.asc", ascii_grid([](Point2d p) { return p.x > 0.0 ? 500.0 + p.x : 0.0; }));
+  folder.write("ground.asc", ascii_grid(climbing_m));
+  Outcome outcome = folder.run("farlod-pack town.geojson -o a.farlod --terrain ground.asc --canopy crowns.asc");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("208 implausible_size"));
+  EXPECT_THAT(outcome.out, HasSubstr(" heights of trees are more than "));
+  EXPECT_THAT(outcome.out, HasSubstr("gdal_edit.py -scale 0.01 FILE says that they are centimetres"));
+  std::string trees = "x,y,height\n";
+  for (int n = 0; n < 12; ++n) trees += std::to_string(500000 + 10 * n) + ",5500010,900\n";
+  folder.write("trees.csv", trees);
+  outcome = folder.run("farlod-pack town.geojson -o b.farlod --trees trees.csv");
+  EXPECT_THAT(outcome.out,
+              HasSubstr("Doubtful (208 implausible_size): trees.csv: half of its 12 heights of trees are more than "));
+}
+
 TEST_F(DoubtfulTerrain, APictureIsNone) {
   std::string picture = "P6 20 20 255\n";
   for (int n = 0; n < 20 * 20 * 3; ++n) picture.push_back(static_cast<char>(n % 100));

@@ -142,6 +142,7 @@ Tree TreeSizes::complete(const StatedSizes& stated, const std::string& name, Poi
   name_ = name;
   place_ = place;
   StatedSizes s = stated;
+  if (s.height_m.value_or(0.0) > 0.0) stated_heights_.add(*s.height_m);
   s.height_m = possible(s.height_m, highest_tree_m, "a height");
   s.crown_diameter_m = possible(s.crown_diameter_m, widest_crown_m, "a crown's diameter");
   s.trunk_diameter_m = possible(s.trunk_diameter_m, thickest_trunk_m, "a trunk's diameter");
@@ -224,6 +225,7 @@ void TreeCollector::note_sizes() {
   if (const std::string classes = sizes_.classes(); !classes.empty())
     found_[ProblemCode::tree_size_classes] = {
         0, whole_file, classes + ": metres are taken; where they are classes, write metres into the file", somewhere};
+  if (const auto doubt = sizes_.doubt()) found_[ProblemCode::implausible_size] = {0, whole_file, *doubt, somewhere};
   if (sizes_.absurd().count > 0) found_[ProblemCode::absurd_tree_size] = sizes_.absurd();
   if (sizes_.trunks().count > 0) found_[ProblemCode::trunk_above_crown] = sizes_.trunks();
 }

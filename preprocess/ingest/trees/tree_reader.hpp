@@ -17,6 +17,7 @@
 #include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 #include "package/crown.hpp"
+#include "plausibility/doubtful_trees.hpp"
 
 namespace farlod::ingest {
 
@@ -53,6 +54,11 @@ class TreeSizes {
   /// Which of the sizes look like numbers of classes, and why; none: empty.
   [[nodiscard]] std::string classes() const;
 
+  /// Why the heights are hardly metres; none: empty.
+  [[nodiscard]] std::optional<std::string> doubt() const {
+    return stated_heights_.doubt("Convert them to metres above the ground");
+  }
+
   /// How often something was met, and how and where it was the first time.
   struct Finding {
     std::size_t count = 0;
@@ -80,6 +86,7 @@ class TreeSizes {
   double trunk_ratio_;
   std::size_t count_ = 0, heights_from_crowns_ = 0, heights_from_trunks_ = 0, heights_by_default_ = 0, crowns_from_heights_ = 0;
   Spread heights_, crowns_;
+  plausibility::HeightsOfTrees stated_heights_;
   Finding absurd_, trunks_;
   std::string name_;  ///< of the tree at hand
   Point2d place_;
