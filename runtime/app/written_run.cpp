@@ -55,10 +55,16 @@ std::string words_of_left_out(const SvfOptions& options) {
   return options.mask_file.empty() ? fmt::format("not within {:g} m", *within_m) : "not asked for";
 }
 
+/// The building whose view a band is.
+std::string landmark_of(const SvfOptions& options, const Band& band) {
+  const bool is_of_building = band.name == "view_building" || band.name == "sees_building";
+  return is_of_building ? options.evaluation.further.seen_building.value_or("") : "";
+}
+
 RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Package& package, std::size_t threads) {
   std::vector<Band> bands = bands_of_run(options);
   const std::size_t drawn = drawn_band_of(options, bands);
-  std::string conditions = conditions_of(options, bands[drawn].name);
+  std::string conditions = conditions_of(options, bands[drawn].name), landmark = landmark_of(options, bands[drawn]);
   return {plan.north_west_m,
           plan.step_m,
           plan.columns,
@@ -71,7 +77,8 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Pa
           &package,
           drawn,
           std::move(conditions),
-          words_of_left_out(options)};
+          words_of_left_out(options),
+          std::move(landmark)};
 }
 
 TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const Package& package) {
@@ -85,6 +92,7 @@ bool draws_errors(const SvfOptions& options) { return options.verify_format != n
 RasterFrame with_svf_drawn(RasterFrame frame) {
   frame.drawn_band = 0;
   frame.conditions = {};
+  frame.landmark = {};
   return frame;
 }
 

@@ -111,6 +111,15 @@ TEST_F(PackedTown, ABuildingIsBandsOfARaster) {
   EXPECT_THAT(band_names(folder.path("o.tif")), ElementsAre("svf", "view_building", "sees_building"));
 }
 
+TEST_F(PackedTown, ABuildingIsMarkedInPicturesOfItsViewAlone) {
+  const std::string colour_of_landmark = "#d55e00";
+  const std::string run = "farlod-svf a.farlod -o o.tif --grid 20 --rays 100 --preview o.svg --sees " + small_town().front().id;
+  folder.must(run + " --quantity svf,view_building");
+  EXPECT_THAT(folder.colours_of("o.svg"), Contains(colour_of_landmark));
+  folder.must(run + " --quantity view_building,svf");
+  EXPECT_THAT(folder.colours_of("o.svg"), Not(Contains(colour_of_landmark)));
+}
+
 TEST_F(PackedTown, ABuildingThatThereIsNotIsRefusedByOneThatThereIs) {
   const std::string id = small_town().front().id, near = id + "x";
   for (const std::string& run : std::vector<std::string>{"-o o.csv" + at_crossing, "-o o.tif --grid 20",

@@ -16,29 +16,6 @@
 namespace farlod {
 namespace {
 
-using PageTriangle = std::array<PagePoint, 3>;
-
-double side_of(PagePoint a, PagePoint b, PagePoint p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
-
-bool covers(const PageTriangle& t, PagePoint p) {
-  const double ab = side_of(t[0], t[1], p), bc = side_of(t[1], t[2], p), ca = side_of(t[2], t[0], p);
-  return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
-}
-
-/// Fills the pixels whose middles a triangle covers.
-void fill(Picture& picture, const PageTriangle& t, Colour colour) {
-  if (side_of(t[0], t[1], t[2]) == 0.0) return;  // upright
-  const auto [west, east] = std::minmax({t[0].x, t[1].x, t[2].x});
-  const auto [top, bottom] = std::minmax({t[0].y, t[1].y, t[2].y});
-  const auto begin = [](double low) { return static_cast<std::size_t>(std::max(0.0, std::floor(low))); };
-  const auto end = [](double high, std::size_t size) {
-    return static_cast<std::size_t>(std::clamp(std::ceil(high), 0.0, static_cast<double>(size)));
-  };
-  for (std::size_t y = begin(top); y < end(bottom, picture.size().height); ++y)
-    for (std::size_t x = begin(west); x < end(east, picture.size().width); ++x)
-      if (covers(t, {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5})) picture.set({x, y}, colour);
-}
-
 CellZone zone_of(CellPlace place, const CellContents& contents) {
   if (place == contents.cell) return CellZone::cell;
   return contents.neighborhood.contains(place) ? CellZone::near : CellZone::far;
@@ -191,7 +168,8 @@ Picture draw_cell_plan(const CellContents& contents, const std::vector<MeshPart>
     const Colour colour = part.building ? building_colour(zone) : street_colour(zone);
     const auto place = [&](std::uint32_t vertex) { return frame.place_of(horizontal(part.vertices_projected[vertex])); };
     for (const MeshTriangle& t : part.triangles)
-      fill(picture, {place(t.vertices[0]), place(t.vertices[1]), place(t.vertices[2])}, colour);
+      for_each_pixel({place(t.vertices[0]), place(t.vertices[1]), place(t.vertices[2])}, picture.size(),
+                     [&](Pixel pixel) { picture.set(pixel, colour); });
   }
   return picture;
 }

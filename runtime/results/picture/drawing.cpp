@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <ostream>
+#include <utility>
 
 #include "base/expects.hpp"
 #include "base/lower_case.hpp"
@@ -30,6 +31,13 @@ bool shorten(double from, double step, double low, double high, double& begin, d
   begin = std::max(begin, std::min(at_low, at_high));
   end = std::min(end, std::max(at_low, at_high));
   return begin <= end;
+}
+
+double side_of(PagePoint a, PagePoint b, PagePoint p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+
+bool covers(const PageTriangle& t, PagePoint p) {
+  const double ab = side_of(t[0], t[1], p), bc = side_of(t[1], t[2], p), ca = side_of(t[2], t[0], p);
+  return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
 }
 
 constexpr double line_width = 1.5, tick = 6.0;
@@ -62,6 +70,18 @@ std::optional<Segment> clipped(const Segment& segment, PagePoint upper_left, Pag
   return Segment{at(begin), at(end)};
 }
 
+void for_each_pixel(const PageTriangle& triangle, PixelSize picture, const std::function<void(Pixel)>& visit) {
+  if (side_of(triangle[0], triangle[1], triangle[2]) == 0.0) return;  // upright
+  const auto [west, east] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+  const auto [top, bottom] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+  const auto within = [](double at, std::size_t size) {
+    return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(size)));
+  };
+  for (std::size_t y = within(std::floor(top), picture.height); y < within(std::ceil(bottom), picture.height); ++y)
+    for (std::size_t x = within(std::floor(west), picture.width); x < within(std::ceil(east), picture.width); ++x)
+      if (covers(triangle, {static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5})) visit({x, y});
+}
+
 Polygon disc(PagePoint middle, double radius, Colour colour) {
   constexpr int corners = 24;
   Polygon polygon{{}, colour};
@@ -70,6 +90,15 @@ Polygon disc(PagePoint middle, double radius, Colour colour) {
     polygon.corners.push_back({middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
   }
   return polygon;
+}
+
+void add_ring(Drawing& drawing, PagePoint middle, double radius, Colour colour) {
+  constexpr Colour casing{255, 255, 255};
+  for (const auto& [width, of] : {std::pair{3.5, casing}, {1.5, colour}}) {
+    Line ring{disc(middle, radius, of).corners, width, of};
+    ring.places.push_back(ring.places.front());
+    drawing.shapes.emplace_back(std::move(ring));
+  }
 }
 
 double round_length_m(double limit_m) {

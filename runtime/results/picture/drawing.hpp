@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -47,6 +49,11 @@ struct Segments {
 /// The part of a segment that lies in an upright rectangle; empty where none does.
 [[nodiscard]] std::optional<Segment> clipped(const Segment& segment, PagePoint upper_left, PagePoint lower_right);
 
+using PageTriangle = std::array<PagePoint, 3>;
+
+/// Visits the pixels of a picture whose middles a triangle covers; none of one that has no width.
+void for_each_pixel(const PageTriangle& triangle, PixelSize picture, const std::function<void(Pixel)>& visit);
+
 /// Where `Text::place` is along the line of text.
 enum class Alignment : std::uint8_t { left, centre, right };
 
@@ -82,6 +89,9 @@ struct Drawing {
 
 /// A disc around a place, to the eye.
 [[nodiscard]] Polygon disc(PagePoint middle, double radius, Colour colour);
+
+/// A ring around something small, which is seen wherever it lies.
+void add_ring(Drawing& drawing, PagePoint middle, double radius, Colour colour);
 
 /// The longest edge of a drawing, in pixels.
 inline constexpr std::size_t longest_drawing_edge = 32767;

@@ -188,7 +188,7 @@ double error_of_full_colour(const ErrorSummary& errors) {
 
 Drawing draw_error_map(const GreyMap& map, std::span<const Segment> outlines, std::span<const VerifiedReceiver> receivers,
                        const ErrorSummary& errors, const ErrorMapCaption& caption) {
-  PreviewLayout layout = preview_layout({map.raster.columns, map.raster.rows});
+  PreviewLayout layout = layout_with_footer({map.raster.columns, map.raster.rows});
   const PagePoint footer = point_of(layout.footer);
   layout.picture.height += static_cast<std::size_t>(2.5 * step_of_lines);
   Drawing drawing{layout.picture, "Errors of " + caption.quantity + " against exact"};

@@ -21,7 +21,12 @@ struct PlanBackground {
   std::vector<float> shading;
   /// Whether a building covers the pixel, row by row; empty where no pixel asks.
   std::vector<bool> is_covered = {};
+  /// Whether the pixel is of the building that receivers look for, row by row; empty where there is none.
+  std::vector<bool> is_landmark = {};
 };
+
+/// The colour of the building that receivers look for: that of no value, nor of a line.
+inline constexpr Colour landmark_colour{213, 94, 0};
 
 /// With all pixels that lie so many columns or rows beside one that is covered, row by row: what has no value has its middle
 /// covered, or most of it, and perhaps not the pixels at its edge.

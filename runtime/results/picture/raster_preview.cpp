@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "results/picture/building_plan.hpp"
+#include "results/picture/map_legend.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/value_scale.hpp"
 #include "results/value_text.hpp"
@@ -30,12 +32,8 @@ PreviewRaster enlarged(const PreviewRaster& raster, std::size_t factor) {
 }
 
 constexpr Colour outline_colour{24, 24, 28};
-constexpr double outline_width = 0.7, tick_width = 1.5, tick_length = 6.0;
-constexpr std::size_t margin = 24, gap = 16, heading_height = 50;
-constexpr PixelSize legend_size{96, 280};
-constexpr std::size_t colour_bar_width = 28, footer_height = 48;
-constexpr std::size_t narrowest_content = 560;       // the longest title must fit
-constexpr double letter_width = 0.53 * text_height;  // of a line of them, on average
+constexpr double tick_width = 1.5, tick_length = 6.0;
+constexpr double page_margin_of_map = 24.0, first_line_of_title = page_margin_of_map + title_height;
 
 /// The unit of the colours, what they are drawn for, the pixels that they stand for, and where north is up.
 std::string subtitle_of(const RasterFrame& frame, const ValueScale& scale) {
@@ -64,7 +62,7 @@ struct Greys {
 Greys greys_of(const PreviewRaster& raster, const PlanBackground& background) {
   Greys greys;
   for (std::size_t n = 0; n < raster.values.size(); ++n) {
-    if (!has_no_value(raster.values[n])) continue;
+    if (!has_no_value(raster.values[n]) || (!background.is_landmark.empty() && background.is_landmark[n])) continue;
     const bool is_covered = !background.is_covered.empty() && background.is_covered[n];
     (is_covered ? greys.of_buildings : greys.others) = true;
     const bool is_lit = !background.shading.empty() && std::abs(background.shading[n] - 1.0F) > visible_light;
@@ -79,13 +77,25 @@ Colour grey_of(const PlanBackground& background, std::size_t pixel) {
   return lit(no_value_grey, 1.0F + share_of_grey * (light - 1.0F));
 }
 
+/// Whether a pixel of the landmark lies near its edge.
+bool is_at_edge(const std::vector<bool>& is_landmark, PixelSize map, Pixel pixel) {
+  constexpr std::size_t rim = 2;
+  if (pixel.x < rim || pixel.y < rim || pixel.x + rim >= map.width || pixel.y + rim >= map.height) return true;
+  const std::size_t n = pixel.y * map.width + pixel.x;
+  return !is_landmark[n - rim] || !is_landmark[n + rim] || !is_landmark[n - rim * map.width] || !is_landmark[n + rim * map.width];
+}
+
 Picture map_of(const PreviewRaster& raster, const ValueScale& scale, const PlanBackground& background) {
   Picture map({raster.columns, raster.rows}, no_value_grey);
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column) {
       const std::size_t n = row * raster.columns + column;
       const float value = raster.values[n];
-      map.set({column, row}, has_no_value(value) ? grey_of(background, n) : scale.colour_of(static_cast<double>(value)));
+      const bool is_landmark = !background.is_landmark.empty() && background.is_landmark[n] &&
+                               (has_no_value(value) || is_at_edge(background.is_landmark, map.size(), {column, row}));
+      map.set({column, row}, is_landmark           ? landmark_colour
+                             : has_no_value(value) ? grey_of(background, n)
+                                                   : scale.colour_of(static_cast<double>(value)));
     }
   return map;
 }
@@ -115,36 +125,49 @@ void add_colour_bar(Drawing& drawing, const PreviewLayout& layout, const ValueSc
   }
 }
 
-/// A box of a grey and its meaning; returns where the next one stands.
-PagePoint add_grey_legend(Drawing& drawing, PagePoint place, Colour grey, const std::string& words) {
-  constexpr double away = 36.0;
-  constexpr double edge = 14.0, rim = 1.0;
-  drawing.shapes.emplace_back(box(place, edge, edge, muted));
-  drawing.shapes.emplace_back(box({place.x + rim, place.y + rim}, edge - 2.0 * rim, edge - 2.0 * rim, grey));
-  drawing.shapes.emplace_back(Text{{place.x + edge + 8.0, place.y + edge - 2.0}, words, text_height, Alignment::left, ink});
-  return {place.x + away + std::ceil(letter_width * static_cast<double>(words.size())), place.y};
+std::vector<LegendEntry> legend_of(const PlanBackground& background, const Greys& greys, const RasterFrame& frame) {
+  using Sign = LegendEntry::Sign;
+  std::vector<LegendEntry> entries;
+  if (std::ranges::find(background.is_landmark, true) != background.is_landmark.end())
+    entries.push_back({Sign::box, landmark_colour, "landmark " + frame.landmark});
+  if (greys.of_buildings) entries.push_back({Sign::box, covered_grey, "buildings"});
+  if (greys.others) entries.push_back({Sign::box, no_value_grey, frame.why_no_value.empty() ? "no data" : frame.why_no_value});
+  if (!background.outlines.empty()) entries.push_back({Sign::line, outline_colour, "roofs"});
+  if (greys.are_lit) entries.push_back({Sign::none, {}, "Ground without data lit from the north-west"});
+  return entries;
 }
 
-void add_legend(Drawing& drawing, PagePoint place, const PlanBackground& background, const Greys& greys,
-                const std::string& why_no_value) {
-  PagePoint next = place;
-  if (greys.of_buildings) next = add_grey_legend(drawing, next, covered_grey, "buildings");
-  if (greys.others) next = add_grey_legend(drawing, next, no_value_grey, why_no_value.empty() ? "no data" : why_no_value);
-  if (!background.outlines.empty()) {
-    const double y = next.y + 7.5;
-    drawing.shapes.emplace_back(Line{{{next.x, y}, {next.x + 22.0, y}}, outline_width, outline_colour});
-    drawing.shapes.emplace_back(Text{{next.x + 30.0, next.y + 12.0}, "roofs", text_height, Alignment::left, ink});
+/// What is large enough to be seen has no ring.
+void add_ring_around_landmark(Drawing& drawing, const PreviewLayout& layout, const PlanBackground& background) {
+  constexpr double seen_edge = 24.0, ring_radius = 14.0;
+  PagePoint low{static_cast<double>(layout.map_size.width), static_cast<double>(layout.map_size.height)}, high{};
+  for (std::size_t n = 0; n < background.is_landmark.size(); ++n) {
+    if (!background.is_landmark[n]) continue;
+    const auto x = static_cast<double>(n % layout.map_size.width), y = static_cast<double>(n / layout.map_size.width);
+    low = {std::min(low.x, x), std::min(low.y, y)};
+    high = {std::max(high.x, x + 1.0), std::max(high.y, y + 1.0)};
   }
-  if (greys.are_lit)
-    drawing.shapes.emplace_back(
-        Text{{place.x, place.y + 32.0}, "Ground without data lit from the north-west", text_height, Alignment::left, muted});
+  if (high.x < low.x || std::max(high.x - low.x, high.y - low.y) > seen_edge) return;
+  const auto [left, top] = page_point_of(layout.map);
+  add_ring(drawing, {left + 0.5 * (low.x + high.x), top + 0.5 * (low.y + high.y)}, ring_radius, landmark_colour);
 }
 
-void add_outlines(Drawing& drawing, const PreviewLayout& layout, const PlanBackground& background) {
+void add_outlines(Drawing& drawing, const PreviewLayout& layout, const PreviewRaster& raster, const PlanBackground& background) {
   const auto [left, top] = page_point_of(layout.map);
-  Segments lines{{}, outline_width, outline_colour};
+  // A wider line would hide most of a pixel that the screen shows by few of its own
+  constexpr double share_of_pixel = 0.14, widest = 0.7;
+  Segments lines{{}, widest, outline_colour};
   for (const auto& [a, b] : background.outlines) lines.segments.push_back({{left + a.x, top + a.y}, {left + b.x, top + b.y}});
   if (!lines.segments.empty()) drawing.shapes.emplace_back(std::move(lines));
+}
+
+/// Returns where the next line stands.
+double add_lines(Drawing& drawing, const std::vector<std::string>& lines, double y, double height, double step, Colour colour) {
+  for (const std::string& words : lines) {
+    drawing.shapes.emplace_back(Text{{page_margin_of_map, y}, words, height, Alignment::left, colour});
+    y += step;
+  }
+  return y;
 }
 
 }  // namespace
@@ -193,38 +216,26 @@ std::size_t ScreenFit::bytes_for(const RasterFrame& frame) {
   return divide_up(frame.columns, square) * divide_up(frame.rows, square) * (sizeof(double) + sizeof(std::uint32_t));
 }
 
-PreviewLayout preview_layout(PixelSize map_size, std::size_t letters) {
-  constexpr std::size_t below_long_heading = 12;  // the unit stands above the colours, and must not touch the heading
-  const auto heading = static_cast<std::size_t>(letter_width * static_cast<double>(letters));
-  PreviewLayout layout;
-  layout.map = {margin, margin + heading_height + gap + (heading > map_size.width ? below_long_heading : 0)};
-  layout.map_size = map_size;
-  // The scale stands beside its map, however narrow that is
-  layout.colour_bar = {margin + map_size.width + gap, layout.map.y};
-  layout.colour_bar_size = {colour_bar_width, std::min(std::max(map_size.height, legend_size.height / 2), legend_size.height)};
-  layout.footer = {margin, layout.map.y + std::max(map_size.height, layout.colour_bar_size.height) + gap};
-  layout.picture = {margin + std::max({map_size.width + gap + legend_size.width, narrowest_content, heading}) + margin,
-                    layout.footer.y + footer_height + margin};
-  return layout;
-}
-
 Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background) {
   const ValueScale scale = drawn_scale(raster, frame);
-  const std::string subtitle = subtitle_of(frame, scale);
-  const PreviewLayout layout = preview_layout({raster.columns, raster.rows}, frame.conditions.empty() ? 0 : subtitle.size());
+  const PixelSize map{raster.columns, raster.rows};
+  const auto title = in_lines(scale.title, title_height, heading_width(map)),
+             subtitle = in_lines(subtitle_of(frame, scale), text_height, heading_width(map));
+  const auto legend = legend_in_rows(legend_of(background, greys_of(raster, background), frame), legend_width(map));
+  const bool is_beyond_map = !scale.unit.empty() && std::ranges::any_of(subtitle, [&](const std::string& line) {
+    return width_of_words(line, text_height) > static_cast<double>(map.width);
+  });
+  const PreviewLayout layout = preview_layout(map, {title.size(), subtitle.size(), legend.size(), is_beyond_map});
   Drawing drawing{layout.picture, scale.title};
-  const double left = static_cast<double>(margin), top = static_cast<double>(margin);
-  drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
-  drawing.shapes.emplace_back(
-      Text{{left, top + static_cast<double>(heading_height)}, subtitle, text_height, Alignment::left, muted});
+  const double below = add_lines(drawing, title, first_line_of_title, title_height, line_of_title, ink);
+  add_lines(drawing, subtitle, below, text_height, line_of_subtitle, muted);
   drawing.shapes.emplace_back(Image{layout.map, map_of(raster, scale, background)});
-  add_outlines(drawing, layout, background);
+  add_outlines(drawing, layout, raster, background);
+  add_ring_around_landmark(drawing, layout, background);
   add_colour_bar(drawing, layout, scale);
-  const PagePoint footer = page_point_of(layout.footer);
-  add_scale_bar(drawing, footer, raster.metres_per_pixel, raster.columns);
-  add_legend(drawing, {footer.x + 230.0, footer.y + 14.0}, background, greys_of(raster, background), frame.why_no_value);
-  const double right = static_cast<double>(layout.picture.width - margin);
-  add_north_arrow(drawing, {right - 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
+  add_scale_bar(drawing, page_point_of(layout.footer), raster.metres_per_pixel, raster.columns);
+  add_legend_rows(drawing, page_point_of(layout.legend), legend);
+  add_north_arrow(drawing, page_point_of(layout.north_arrow));
   return drawing;
 }
 
@@ -238,6 +249,8 @@ void PreviewWriter::commit() {
   PlanBackground background =
       frame_.package != nullptr ? plan_background(*frame_.package, plan, frame_.threads, has_gaps) : PlanBackground{};
   background.is_covered = widened(background.is_covered, plan.columns, (raster.enlarged_by + 1) / 2);
+  if (frame_.package != nullptr && !frame_.landmark.empty())
+    background.is_landmark = plan_of_building(*frame_.package, frame_.landmark, plan);
   write_drawing(draw_preview(raster, frame_, background), path_);
 }
 

@@ -12,6 +12,7 @@
 #include "farlod/raster.hpp"
 #include "results/picture/drawing.hpp"
 #include "results/picture/plan_background.hpp"
+#include "results/picture/preview_layout.hpp"
 #include "results/raster/raster_writer.hpp"
 
 namespace farlod {
@@ -58,21 +59,9 @@ class ScreenFit {
 inline constexpr std::size_t bytes_of_largest_background =
     longest_preview_edge * longest_preview_edge * 3 * sizeof(float) + most_outlines * 3 * (sizeof(PlanSegment) + sizeof(Segment));
 
-/// Where the parts of a preview lie: the title above the map, the colour scale to its right, scale bar and legend below.
-struct PreviewLayout {
-  PixelSize picture;
-  Pixel map;
-  PixelSize map_size;
-  Pixel colour_bar;
-  PixelSize colour_bar_size;
-  Pixel footer;
-};
-
-/// With room for so many letters in the second line of the heading.
-[[nodiscard]] PreviewLayout preview_layout(PixelSize map_size, std::size_t letters = 0);
-
 /// Draws a band of a raster (RasterFrame::drawn_band) as a map with a title, a colour scale, a scale bar in metres and a north
-/// arrow. Pixels without a value are grey: those of buildings, and, lightened and darkened as the ground is lit, all others.
+/// arrow. Pixels without a value are grey: those of buildings, and, lightened and darkened as the ground is lit, all others. The
+/// building that receivers look for has a colour of its own; where it has values, its edge has it.
 [[nodiscard]] Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background = {});
 
 /// Draws the raster and writes it as PNG, SVG or PDF, without bounds. What the frame's package knows of buildings and ground is

@@ -44,6 +44,7 @@ struct RasterFrame {
   std::size_t drawn_band = 0;        ///< which of the bands a picture shows
   std::string conditions = {};       ///< that it is drawn for, in words: when, below what sky, how high
   std::string why_no_value = {};     ///< of pixels outside of buildings, in a few words; empty: they have no data
+  std::string landmark = {};         ///< the building that the drawn band is about, by its id; empty: it is about none
 };
 
 /// Writes a raster tile by tile, so that nobody has to hold the whole raster. The file appears with commit(), and not before. A
