@@ -72,6 +72,7 @@ CityScenery city_scenery(const Package& package, const PackageFacts& facts, cons
   CityScenery scenery{plan_of(package), {},         grid_of(package, facts), places_in(report, d), facts.package,
                       crs_text(d),      place_of(d)};
   scenery.heights = plan_heights(package, scenery.plan, run);
+  if (facts.inventory.crowns.all() > 0) scenery.crown_tops_m = plan_canopy(package, scenery.plan, run).top_m;
   scenery.is_surface_model = facts.pixels.has_value();
   return scenery;
 }

@@ -239,6 +239,12 @@ TEST_F(TreeTown, ShowsItsCrownsInPicturesOfTheSky) {
   EXPECT_THAT(folder.colours_of("a.svg"), testing::Not(testing::Contains(colour_of_crowns)));
 }
 
+TEST_F(TreeTown, ShowsItsCrownsInItsPlan) {
+  for (const std::string package : {"a", "b"}) folder.must("farlod-info " + package + ".farlod --png " + package + ".svg");
+  EXPECT_THAT(folder.colours_of("b.svg"), testing::Contains("#008c64"));
+  EXPECT_THAT(folder.colours_of("a.svg"), testing::Not(testing::Contains("#008c64")));
+}
+
 TEST_F(TreeTown, OptionsThatDoNotFitAreRefused) {
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
     expect_refusal(folder.run("farlod-svf b.farlod -o o.csv --at 1,2 " + arguments), exit_usage, said);

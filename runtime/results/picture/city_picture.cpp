@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "results/picture/sky_picture.hpp"
+
 namespace farlod {
 namespace {
 
@@ -26,15 +28,23 @@ double share_of_ground(double ground_m, const CityScale& scale) {
   return 1.0 - (scale.high_m - ground_m) / std::max(scale.high_m - scale.low_m, least_relief_m);
 }
 
+/// Whether a crown is what is seen from above.
+bool is_crown_above(const CityScenery& scenery, std::size_t pixel) {
+  if (scenery.crown_tops_m.empty()) return false;
+  const float top_m = scenery.crown_tops_m[pixel];
+  return !std::isnan(top_m) && !(top_m <= scenery.heights.highest_m[pixel]);
+}
+
 Picture map_of_city(const CityScenery& scenery, const CityScale& scale) {
   Picture map({scenery.plan.columns, scenery.plan.rows}, nothing_there);
   const std::vector<float>&ground_m = scenery.heights.ground_m, &highest_m = scenery.heights.highest_m;
   const std::vector<float> shading = shading_of(ground_m, scenery.plan);
   for (std::size_t n = 0; n < ground_m.size(); ++n) {
     const double ground = static_cast<double>(ground_m[n]), highest = static_cast<double>(highest_m[n]);
-    const Colour colour = colour_in_city(ground, highest, scale);
-    const bool is_ground = highest - ground < lowest_building_m && !shading.empty();
-    map.set({n % scenery.plan.columns, n / scenery.plan.columns}, is_ground ? lit(colour, shading[n]) : colour);
+    const bool is_crown = is_crown_above(scenery, n), is_ground = highest - ground < lowest_building_m;
+    const Colour seen = is_crown ? colour_of_crowns() : colour_in_city(ground, highest, scale);
+    const bool is_lit = (is_ground || is_crown) && !shading.empty();
+    map.set({n % scenery.plan.columns, n / scenery.plan.columns}, is_lit ? lit(seen, shading[n]) : seen);
   }
   return map;
 }
@@ -87,14 +97,6 @@ void mark_place(Drawing& drawing, PagePoint place) {
   drawing.shapes.emplace_back(disc(place, 3.8, mark_colour));
 }
 
-void add_ring(Drawing& drawing, PagePoint middle) {
-  for (const auto& [width, colour] : {std::pair{3.5, nothing_there}, {1.5, ink}}) {
-    Line ring{disc(middle, 8.0, colour).corners, width, colour};
-    ring.places.push_back(ring.places.front());
-    drawing.shapes.emplace_back(std::move(ring));
-  }
-}
-
 /// A column of colours, with words beside it at shares of its height from below.
 void add_scale(Drawing& drawing, Pixel upper_left, PixelSize size, const std::function<Colour(double)>& colour_at,
                const std::vector<std::pair<double, std::string>>& ticks) {
@@ -144,6 +146,16 @@ void add_scales(Drawing& drawing, Pixel place, const CityScenery& scenery, const
       drawing, {place.x, place.y + 328}, {width, 100},
       [&](double share) { return colour_of_ground(share_of_ground(std::lerp(scale.low_m, scale.high_m, share), scale)); },
       elevations);
+}
+
+/// Names crowns where any are seen.
+void add_sign_of_crowns(Drawing& drawing, const CityScenery& scenery, PagePoint place) {
+  for (std::size_t n = 0; n < scenery.crown_tops_m.size(); ++n) {
+    if (!is_crown_above(scenery, n)) continue;
+    drawing.shapes.emplace_back(box(place, 28.0, 14.0, colour_of_crowns()));
+    add_words(drawing, {place.x + 38.0, place.y + 12.0}, "crowns");
+    return;
+  }
 }
 
 std::string words_of_grid(const CityScenery& scenery) {
@@ -208,8 +220,10 @@ Colour colour_in_city(double ground_m, double highest_m, const CityScale& scale)
   return nothing_there;
 }
 
+Colour colour_of_crowns() { return colour_of(SkyPart::crown); }
+
 PreviewLayout city_layout(const RasterPlan& plan) {
-  PreviewLayout layout = preview_layout({plan.columns, std::max(plan.rows, side_height)});
+  PreviewLayout layout = layout_with_footer({plan.columns, std::max(plan.rows, side_height)});
   layout.map_size = {plan.columns, plan.rows};
   layout.picture.width += 32;  // "above ground"
   layout.picture.height += static_cast<std::size_t>(3.0 * step_of_rows);
@@ -228,9 +242,13 @@ Drawing draw_city(const CityScenery& scenery) {
   for (const Point2d p : scenery.marked.places_projected)
     if (frame.shows(p)) mark_place(drawing, frame.place_of(p));
   if (scale.top_m > 0.0)
-    add_ring(drawing, frame.place_of(scenery.plan.centre_m(scale.highest_at % scenery.plan.columns,
-                                                           scale.highest_at / scenery.plan.columns)));
+    add_ring(
+        drawing,
+        frame.place_of(scenery.plan.centre_m(scale.highest_at % scenery.plan.columns, scale.highest_at / scenery.plan.columns)),
+        8.0, ink);
   add_scales(drawing, layout.colour_bar, scenery, scale);
+  add_sign_of_crowns(drawing, scenery,
+                     {static_cast<double>(layout.colour_bar.x), static_cast<double>(layout.colour_bar.y + 444)});
   const PagePoint footer{static_cast<double>(layout.footer.x), static_cast<double>(layout.footer.y)};
   add_footer(drawing, scenery, scale, footer);
   add_north_arrow(drawing, {static_cast<double>(layout.colour_bar.x) + 48.0, footer.y - 4.0});

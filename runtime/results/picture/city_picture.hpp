@@ -33,8 +33,9 @@ struct CityScenery {
   PlanHeights heights;
   GridLines grid;
   MarkedPlaces marked;
-  std::string package, crs, place;  ///< as the captions call them; no place where it is not known
-  bool is_surface_model = false;    ///< its buildings are a part of its only surface
+  std::string package, crs, place;       ///< as the captions call them; no place where it is not known
+  bool is_surface_model = false;         ///< its buildings are a part of its only surface
+  std::vector<float> crown_tops_m = {};  ///< above sea level, at the same pixels, NaN where there is no crown; empty: no trees
 };
 
 /// What the colours of a city stand for.
@@ -51,11 +52,14 @@ struct CityScale {
 /// The colour of a pixel: that of a building's height, or that of the ground before it is lit, or white where there is neither.
 [[nodiscard]] Colour colour_in_city(double ground_m, double highest_m, const CityScale& scale);
 
+/// The colour of crowns, which is that of a picture of the sky: neither a height nor an elevation has it.
+[[nodiscard]] Colour colour_of_crowns();
+
 /// Where the parts of the picture lie.
 [[nodiscard]] PreviewLayout city_layout(const RasterPlan& plan);
 
 /// The city from above, by the highest surface at each pixel: buildings by their height above the ground, the ground by its
-/// elevation, lit from the north-west, the grid, and places.
+/// elevation, crowns, both lit from the north-west, the grid, and places.
 [[nodiscard]] Drawing draw_city(const CityScenery& scenery);
 
 }  // namespace farlod

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -108,6 +109,27 @@ TEST_F(CityPicture, ASurfaceModelIsNoGroundWithoutBuildings) {
   EXPECT_THAT(words(), Not(Contains("No building rises above the ground.")));
   scenery_ = small_city();
   EXPECT_THAT(words(), Contains("Buildings"));
+}
+
+/// Crowns were as grey as the ground below them.
+TEST_F(CityPicture, CrownsHaveAColourAndAName) {
+  const auto names_crowns = [&] {
+    return std::ranges::any_of(draw_city(scenery_).shapes, [](const auto& shape) {
+      const Text* text = std::get_if<Text>(&shape);
+      return text != nullptr && text->words == "crowns";
+    });
+  };
+  EXPECT_FALSE(names_crowns());
+  scenery_.crown_tops_m.assign(60 * 40, nowhere);
+  scenery_.crown_tops_m[15 * 60 + 24] = 110.0F;  // below the roof
+  EXPECT_FALSE(names_crowns());
+  scenery_.crown_tops_m[15 * 60 + 15] = 108.0F;
+  scenery_.crown_tops_m[15 * 60 + 25] = 118.0F;  // above the roof
+  EXPECT_TRUE(names_crowns());
+  EXPECT_EQ(at(15, 15), colour_of_crowns());
+  EXPECT_EQ(at(25, 15), colour_of_crowns());
+  EXPECT_EQ(at(24, 15), colour_of_height(12.0 / 90.0));
+  EXPECT_EQ(at(16, 15), colour_of_ground(1.0));
 }
 
 TEST_F(CityPicture, MarksPlacesOfAReport) {
