@@ -156,7 +156,7 @@ void add_outlines(Drawing& drawing, const PreviewLayout& layout, const PreviewRa
   const auto [left, top] = page_point_of(layout.map);
   // A wider line would hide most of a pixel that the screen shows by few of its own
   constexpr double share_of_pixel = 0.14, widest = 0.7;
-  Segments lines{{}, widest, outline_colour};
+  Segments lines{{}, std::min(share_of_pixel * static_cast<double>(raster.enlarged_by), widest), outline_colour};
   for (const auto& [a, b] : background.outlines) lines.segments.push_back({{left + a.x, top + a.y}, {left + b.x, top + b.y}});
   if (!lines.segments.empty()) drawing.shapes.emplace_back(std::move(lines));
 }

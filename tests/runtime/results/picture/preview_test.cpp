@@ -82,17 +82,6 @@ TEST(PreviewRaster, SmallRastersAreEnlarged) {
   EXPECT_EQ(fitted.values[599 * 1000 + 999], 0.33333334F);
 }
 
-TEST(PreviewLayout, HoldsAllItsParts) {
-  for (const PixelSize map : {PixelSize{1, 1}, PixelSize{1000, 1}, PixelSize{1, 2000}, PixelSize{2000, 2000}}) {
-    const PreviewLayout layout = preview_layout(map);
-    EXPECT_EQ(layout.map.x + map.width + 16, layout.colour_bar.x) << "beside its map, however narrow that is";
-    EXPECT_LT(layout.map.y + map.height, layout.footer.y);
-    EXPECT_LT(layout.colour_bar.y + layout.colour_bar_size.height, layout.footer.y);
-    EXPECT_LT(layout.colour_bar.x + layout.colour_bar_size.width, layout.picture.width);
-    EXPECT_LT(layout.footer.y, layout.picture.height);
-  }
-}
-
 TEST(Preview, DecodesToTheStatedSizeAndColours) {
   const scenes::TemporaryFolder folder;
   write_whole<made<PreviewWriter>>(small_raster(), folder.file("a.png"));
@@ -162,7 +151,7 @@ TEST(Preview, TheLegendNamesTheGreysThatThereAre) {
   EXPECT_THAT(words({none, none}, {{}, {}, {true, false}}), testing::IsSupersetOf({"buildings", "no data"}));
   EXPECT_THAT(words({0.5F, none}, {{}, {}, {true, true}}), Not(Contains("no data")));
   EXPECT_THAT(words({0.5F, none}, {}), Not(Contains("buildings")));
-  const std::string lit_ground = "Ground without data lit from the north-west";
+  const auto lit_ground = testing::StartsWith("Ground without data lit");
   EXPECT_THAT(words({0.5F, none}, {{}, {1.0F, 0.8F}, {false, false}}), Contains(lit_ground));
   EXPECT_THAT(words({0.5F, none}, {{}, {0.8F, 1.0F}, {false, false}}), Not(Contains(lit_ground)));
   WholeRaster near_buildings = raster_of(2, 1, 0.5F);
@@ -252,12 +241,24 @@ TEST(TickStep, IsTheLeastThatGivesFewSteps) {
 }
 
 TEST(Preview, OutlinesAreDarkLinesOfTheMap) {
-  PreviewRaster raster{100, 100, 1.0, std::vector<float>(10'000, 1.0F)};
+  const PreviewRaster raster{100, 100, 1.0, std::vector<float>(10'000, 1.0F), 10};
   const Picture picture = drawn(draw_preview(raster, raster_of(100, 100, 1.0F), {{{{20.0, 50.5}, {80.0, 50.5}}}, {}}));
   const Pixel map = preview_layout({100, 100}).map;
   EXPECT_LT(luminance(picture.at({map.x + 50, map.y + 50})), 0.4 * luminance(colour_of_svf(1.0)));
   EXPECT_EQ(picture.at({map.x + 50, map.y + 52}), colour_of_svf(1.0));
   EXPECT_EQ(picture.at({map.x + 10, map.y + 50}), colour_of_svf(1.0));
+}
+
+/// A line as wide as the pixels of the raster hid pavements.
+TEST(Preview, OutlinesHideLittleOfSmallPixels) {
+  for (const std::size_t enlarged_by : {1U, 2U, 3U}) {
+    const PreviewRaster raster{100, 100, 1.0, std::vector<float>(10'000, 1.0F), enlarged_by};
+    const Drawing drawing = draw_preview(raster, raster_of(100, 100, 1.0F), {{{{20.0, 50.5}, {80.0, 50.5}}}, {}});
+    const Pixel map = preview_layout({100, 100}).map;
+    double seen = 0.0;
+    for (std::size_t y = 50; y < 50 + enlarged_by; ++y) seen += luminance(drawn(drawing).at({map.x + 50, map.y + y}));
+    EXPECT_GT(seen, 0.6 * luminance(colour_of_svf(1.0)) * static_cast<double>(enlarged_by)) << enlarged_by;
+  }
 }
 
 TEST(ScaleBar, IsRoundAndAsLongAsItMayBe) {
