@@ -52,13 +52,15 @@ void add_outlines(Drawing& drawing, const CellPlanFrame& frame, const BuildingOu
   if (!lines.segments.empty()) drawing.shapes.emplace_back(std::move(lines));
 }
 
-void add_plan_legend(Drawing& drawing, const CellPlanFrame& frame) {
+void add_plan_legend(Drawing& drawing, const CellPlanFrame& frame, const CellScenery& scenery) {
   const double top = static_cast<double>(plan_top + cell_plan_edge);
   add_scale_bar(drawing, {static_cast<double>(page_margin), top + 6.0}, frame.metres_per_pixel(), cell_plan_edge);
   PagePoint place{static_cast<double>(page_margin), top + 52.0};
   for (const auto& [zone, words] : {std::pair{CellZone::cell, "the cell"},
                                     {CellZone::near, "near: its neighborhood"},
                                     {CellZone::far, "far: in the far map"}}) {
+    const auto is_in_zone = [&](const MeshPart& part) { return zone_of(part.cell, scenery.contents) == zone; };
+    if (std::ranges::none_of(scenery.around, is_in_zone)) continue;
     drawing.shapes.emplace_back(box(place, 16.0, 16.0, building_colour(zone)));
     drawing.shapes.emplace_back(box({place.x + 18.0, place.y}, 16.0, 16.0, street_colour(zone)));
     add_text(drawing, {place.x + 42.0, place.y + 13.0}, words, text_height, ink);
@@ -77,7 +79,7 @@ void add_plan(Drawing& drawing, const CellScenery& scenery) {
   drawing.shapes.emplace_back(square_of_cells(frame, -reach - 1, reach + 2, 0.6));
   drawing.shapes.emplace_back(square_of_cells(frame, -reach, reach + 1, 1.6));
   drawing.shapes.emplace_back(square_of_cells(frame, 0, 1, 2.6));
-  add_plan_legend(drawing, frame);
+  add_plan_legend(drawing, frame, scenery);
 }
 
 std::vector<std::string> facts_of(const CellContents& c) {

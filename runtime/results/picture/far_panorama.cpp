@@ -158,16 +158,30 @@ struct Meaning {
   std::string words;
 };
 
+std::vector<Meaning> meanings_of_box(const FarBoxView& map) {
+  std::vector<Meaning> meanings;
+  const auto is_hidden = [](float distance_m) { return std::isfinite(distance_m); };
+  if (!std::ranges::all_of(map.distance_m, is_hidden)) meanings.push_back({colour_of(SkyPart::sky), 14.0, "sky"});
+  if (std::ranges::none_of(map.distance_m, is_hidden)) return meanings;
+  meanings.push_back({edge_colour, 14.0, "hidden by what is near the box"});
+  meanings.push_back({undecided_colour, 14.0, "hidden by what is far away"});
+  return meanings;
+}
+
+/// What the picture has: where nothing is hidden for certain, nothing has that colour.
 std::vector<Meaning> meanings_of(const FarView& view) {
-  if (is_box(view))
-    return {{colour_of(SkyPart::sky), 14.0, "sky"},
-            {edge_colour, 14.0, "hidden by what is near the box"},
-            {undecided_colour, 14.0, "hidden by what is far away"}};
-  return {{hidden_colour, 14.0, "residual city: hidden for certain (low)"},
-          {undecided_colour, 14.0, "residual city: undecided (up to high)"},
-          {estimate_colour, 2.0, "residual city: estimate"},
-          {edge_colour, 2.0, "explicit far edges"},
-          {colour_of(SkyPart::sky), 14.0, "sky, as far as the far city goes"}};
+  if (is_box(view)) return meanings_of_box(view.box);
+  const FarHorizonView& h = view.horizon;
+  std::vector<Meaning> meanings;
+  if (std::ranges::any_of(h.low, [](float slope) { return slope > 0.0F; }))
+    meanings.push_back({hidden_colour, 14.0, "residual city: hidden for certain (low)"});
+  const auto has_none_undecided = [](float low, float high) { return high <= std::max(low, 0.0F); };
+  if (!std::ranges::equal(h.low, h.high, has_none_undecided))
+    meanings.push_back({undecided_colour, 14.0, "residual city: undecided (up to high)"});
+  meanings.push_back({estimate_colour, 2.0, "residual city: estimate"});
+  if (!h.edges.empty()) meanings.push_back({edge_colour, 2.0, "explicit far edges"});
+  meanings.push_back({colour_of(SkyPart::sky), 14.0, "sky, as far as the far city goes"});
+  return meanings;
 }
 
 }  // namespace
