@@ -125,6 +125,14 @@ export const placeTests = {
     });
     // Rings and the horizon's line cover some places
     expect(wrong.length <= 14, `${wrong.length} of 72 directions have another colour`);
+    // The label of 30° stands to the right of a place in the north-east, dark in a white halo, whatever lies below it
+    const tones = await page.evaluate(() => {
+      const canvas = document.getElementById("fisheye"), scale = canvas.width / 316, r = 141 * Math.cos(Math.PI / 6) * Math.SQRT1_2;
+      const { data } = canvas.getContext("2d").getImageData((158 - r + 2) * scale, (158 - r - 10) * scale, 22 * scale, 14 * scale);
+      const of = (isTone) => data.filter((_, n) => n % 4 === 0 && isTone(data[n], data[n + 1], data[n + 2])).length / (data.length / 4);
+      return { halo: of((...c) => Math.min(...c) > 250), ink: of((...c) => Math.max(...c) < 60) };
+    });
+    expect(tones.halo > 0.1 && tones.ink > 0.02, `of the label, ${JSON.stringify(tones)} are halo and ink`);
     const label = await page.getAttribute("#fisheye", "aria-label"), shares = [...label.matchAll(/([\d.]+) %/g)].map((m) => Number(m[1]));
     expectNear(shares.reduce((sum, s) => sum + s, 0), 100, 0.3, `the sum of the shares (${label})`);
     const before = await page.evaluate(() => document.getElementById("fisheye").toDataURL());

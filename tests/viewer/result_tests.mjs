@@ -51,8 +51,10 @@ export const resultTests = {
     await page.selectOption("#ground-values", "2");
     await atRest(page);
     await expectGround(page, west, [190, 190, 190], "pixels without data");
+    expect(await page.isVisible("#nodata"), "the legend does not name what has no data");
     await page.selectOption("#ground-values", "-1");
     await atRest(page);
+    expect(!(await page.isVisible("#nodata")), "the legend names no data where all that is seen has some");
     expect(share(await pixels(page, west), near([190, 190, 190])) < 0.1, "the computed values did not come back");
   },
 

@@ -21,6 +21,10 @@ export class Divider {
     return this.at;
   }
 
+  get shown(): boolean {
+    return !this.handle.hidden;
+  }
+
   set shown(shown: boolean) {
     this.handle.hidden = !shown;
   }

@@ -33,10 +33,16 @@ export function paperOf(canvas: HTMLCanvasElement, width: number, height: number
 }
 
 export function drawText(paper: Paper, text: string, x: number, y: number, align: CanvasTextAlign, px: number,
-                         colour = paper.ink): void {
+                         colour = paper.ink, halo: string | null = null): void {
   paper.context.font = `${px}px system-ui, "Noto Sans", "DejaVu Sans", sans-serif`;
   paper.context.textAlign = align;
   paper.context.textBaseline = "middle";
+  if (halo !== null) {
+    paper.context.strokeStyle = halo;
+    paper.context.lineWidth = 3;
+    paper.context.lineJoin = "round";
+    paper.context.strokeText(text, x, y);
+  }
   paper.context.fillStyle = colour;
   paper.context.fillText(text, x, y);
 }

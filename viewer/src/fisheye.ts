@@ -77,12 +77,15 @@ function placeOf(azimuth_deg: number, elevation_deg: number, projection: SkyProj
   return [middle - r * Math.sin(azimuth_deg * degree), middle - r * Math.cos(azimuth_deg * degree)];
 }
 
+/** On all colours of the sky, which are the same in both themes. */
+const inkOnSky = "rgb(32 32 32)", halo = "rgb(255 255 255)";
+
 function drawRings({ context, ...paper }: Paper, projection: SkyProjection): void {
-  context.lineWidth = 0.7;
   for (const elevation_deg of [30, 60]) {
     const r = radius_px * radiusOf((90 - elevation_deg) * degree, projection), [x, y] = placeOf(45, elevation_deg, projection);
+    context.lineWidth = 0.7;
     circle(context, r, "rgb(140 150 160 / 80%)");
-    drawText({ context, ...paper }, `${elevation_deg}°`, x + 3, y - 3, "left", 10, "rgb(140 150 160)");
+    drawText({ context, ...paper }, `${elevation_deg}°`, x + 3, y - 3, "left", 10, inkOnSky, halo);
   }
   context.lineWidth = 1.2;
   circle(context, radius_px, paper.muted);

@@ -36,6 +36,11 @@ export class Legend {
     this.ramp.setAttribute("aria-label", `Colours from blue, ${tickText(-greatest)}, over white to red, ${tickText(greatest)}`);
   }
 
+  /** Names the colour of no data where it is seen. */
+  set namesNoData(isSeen: boolean) {
+    part("nodata").hidden = !isSeen;
+  }
+
   private show(title: string, colours: readonly Triple[], ticks: readonly Tick[]): void {
     const context = this.ramp.getContext("2d");
     this.ramp.width = colours.length;

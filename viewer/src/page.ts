@@ -15,6 +15,7 @@ import { cameraOf, hashOf, linkedCamera, linkedPlace, type LinkedView, linkOf } 
 import { MapOrnaments } from "./map_ornaments.ts";
 import { Marker } from "./marker.ts";
 import { Navigation } from "./navigation.ts";
+import { NoDataCheck } from "./no_data.ts";
 import { part } from "./page_parts.ts";
 import { type PickedFacet, Picker } from "./picking.ts";
 import { PlacePanel } from "./place_panel.ts";
@@ -65,6 +66,9 @@ export class Page {
   private linkTimer = 0;
   private simplifiedTimer = 0;
   private isStale = false;
+  private readonly noData: NoDataCheck;
+  /** Whether the legend tells of the last frame. */
+  private legendIsDue = true;
   private firstCompleteFrame: "missing" | "begun" | "drawn" | "shown" = "missing";
   /** When the last frame was begun, or the first tile came; null before. */
   private begunAt_ms: number | null = null;
@@ -74,6 +78,7 @@ export class Page {
     this.frames = new Frames(view);
     this.city = new CityScene(canvas, () => this.beforeFrame(), () => this.afterFrame());
     this.tiles = new CityTiles(view, this.values, this.city.camera, fail);
+    this.noData = new NoDataCheck(this.city, this.tiles.nodata);
     this.crowns = new Crowns(() => this.city.redraw(), fail);
     this.city.scene.add(this.tiles.group, this.crowns.group);
     if (view.counts.crowns === 0) this.layers.remove("trees");
@@ -96,6 +101,10 @@ export class Page {
   }
 
   get isResting(): boolean {
+    return this.hasAllDrawn && !this.legendIsDue;
+  }
+
+  private get hasAllDrawn(): boolean {
     return this.city.isResting && this.tiles.isComplete && !this.navigation.isFlying && !this.place.isAsking && !this.results.isLoading &&
       !this.crowns.isLoading;
   }
@@ -122,6 +131,7 @@ export class Page {
   dispose(): void {
     this.city.dispose();
     this.tiles.dispose();
+    this.noData.dispose();
     this.crowns.dispose();
     this.values.dispose();
   }
@@ -208,9 +218,19 @@ export class Page {
     this.isStale ||= changed;
     const isDue = this.tiles.isComplete || this.isDueWhileTilesCome();
     if (this.tiles.visibleTiles > 0 && isDue) this.city.release();
-    if (!moved && !(this.isStale && isDue)) return false;
+    if (!moved && !(this.isStale && isDue)) {
+      this.updateLegend();
+      return false;
+    }
     this.marker.prepare();
     return true;
+  }
+
+  /** Once after the last of some frames. */
+  private updateLegend(): void {
+    if (!this.legendIsDue || this.readyAt_ms === null || !this.hasAllDrawn) return;
+    this.legendIsDue = false;
+    this.results.nameNoData(() => this.noData.isSeen());
   }
 
   private isDueWhileTilesCome(): boolean {
@@ -221,6 +241,7 @@ export class Page {
 
   private afterFrame(): void {
     this.isStale = false;
+    this.legendIsDue = true;
     this.begunAt_ms = performance.now();
     this.marker.follow();
     this.ornaments.update(this.navigation.view());

@@ -69,7 +69,7 @@ export class PlacePanel {
   showHemisphere(hemisphere: Hemisphere | null, projection: SkyProjection): void {
     this.hemisphere = hemisphere;
     const shares = hemisphere ? sharesOf(hemisphere) : null;
-    const rows = partNames.filter((name) => shares !== null && (name !== "crown" || shares.crown > 0));
+    const rows = partNames.filter((name) => shares !== null && shares[name] > 0);
     const texts = rows.map((name) => `${partWords[name]} ${percent(shares?.[name] ?? 0)}`);
     const keys = rows.map((name, n) => keyRow("swatch", cssOf(partColours[name]), texts[n] ?? ""));
     if (shares) keys.push(keyRow("line-swatch", lineColours.horizon, "horizon"));

@@ -52,6 +52,13 @@ export class ResultView {
     return this.divider.share;
   }
 
+  /** `facetsAreSeen` are those without a value. Of two results, the small picture that tells has another divider. */
+  nameNoData(facetsAreSeen: () => boolean): void {
+    const dots = [...this.points.values()].filter((shown) => shown.dots.visible && shown.result.info.form !== "problems");
+    const dotsAreSeen = dots.some(({ result }) => result.values.some((value) => !isValue(value)));
+    this.legend.namesNoData = this.divider.shown || dotsAreSeen || facetsAreSeen();
+  }
+
   restore(choice: ResultChoice | null, dividerShare: number | null): void {
     if (choice) this.controls.choose(choice);
     if (dividerShare !== null) this.divider.move(dividerShare);

@@ -98,11 +98,13 @@ const fragmentShader = /* glsl */ `
 export class SvfMaterials {
   readonly withValue: ShaderMaterial;
   readonly withoutValue: ShaderMaterial;
+  readonly nodata: { value: readonly number[] };
   private readonly shared: SharedUniforms;
 
   constructor(view: ViewInfo, values: ShownValues) {
     this.shared = { hidden: { value: 0 }, ramp: { value: rampTexture(view.colours) } };
-    const nodata = { value: view.nodata_colour.map((c) => c / 255) }, uniforms = { ...this.shared, ...values.uniforms, nodata };
+    this.nodata = { value: view.nodata_colour.map((c) => c / 255) };
+    const uniforms = { ...this.shared, ...values.uniforms, nodata: this.nodata };
     const common = { vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide, uniforms };
     this.withValue = new ShaderMaterial({ ...common, defines: { WITH_VALUE: 1 } });
     this.withoutValue = new ShaderMaterial(common);

@@ -128,6 +128,11 @@ export class CityTiles {
     return this.quietUpdates >= 2 && this.visibleTiles > 0;
   }
 
+  /** The colour of facets without a value, in the shaders. */
+  get nodata(): { value: readonly number[] } {
+    return this.materials.nodata;
+  }
+
   set layers(layers: ShownLayers) {
     this.materials.hiddenKinds = hiddenMask(layers);
   }
