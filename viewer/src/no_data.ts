@@ -8,7 +8,7 @@ const columns = 320, rows = 200;
 /** Neither a ramp nor anything else that is drawn has it, however it is dimmed. */
 const marker = [1, 0, 1] as const;
 
-/** Tells whether anything without data is seen: many facets have none, most of which others hide. */
+/** Tells whether a spot without data is seen: many facets have none, most of which others hide. */
 export class NoDataCheck {
   private readonly target = new WebGLRenderTarget(columns, rows);
   private readonly pixels = new Uint8Array(4 * columns * rows);
@@ -25,11 +25,21 @@ export class NoDataCheck {
     renderer.readRenderTargetPixels(this.target, 0, 0, columns, rows, this.pixels);
     renderer.setRenderTarget(null);
     this.colour.value = own;
-    for (let n = 0; n < this.pixels.length; n += 4) {
-      const [red = 0, green = 0, blue = 0] = this.pixels.subarray(n, n + 3);
-      if (red > 150 && blue > 150 && green < 20) return true;
-    }
+    for (let row = 1; row + 1 < rows; ++row)
+      for (let column = 1; column + 1 < columns; ++column) if (this.isSpotAround(column, row)) return true;
     return false;
+  }
+
+  /** Ground at the feet of walls has none in slivers, which nobody takes for a colour of the legend. */
+  private isSpotAround(column: number, row: number): boolean {
+    for (let r = row - 1; r <= row + 1; ++r)
+      for (let c = column - 1; c <= column + 1; ++c) if (!this.hasMarker(4 * (r * columns + c))) return false;
+    return true;
+  }
+
+  private hasMarker(n: number): boolean {
+    const [red = 0, green = 0, blue = 0] = this.pixels.subarray(n, n + 3);
+    return red > 150 && blue > 150 && green < 20;
   }
 
   dispose(): void {
