@@ -46,6 +46,7 @@ export class Fisheye {
     this.drawDisk(paper, hemisphere, projection);
     drawRings(paper, projection);
     drawHorizon(paper, hemisphere, projection);
+    drawElevations(paper, projection);
     drawDirections(paper);
   }
 
@@ -77,18 +78,24 @@ function placeOf(azimuth_deg: number, elevation_deg: number, projection: SkyProj
   return [middle - r * Math.sin(azimuth_deg * degree), middle - r * Math.cos(azimuth_deg * degree)];
 }
 
-/** On all colours of the sky, which are the same in both themes. */
-const inkOnSky = "rgb(32 32 32)", halo = "rgb(255 255 255)";
+const elevations_deg = [30, 60];
 
 function drawRings({ context, ...paper }: Paper, projection: SkyProjection): void {
-  for (const elevation_deg of [30, 60]) {
-    const r = radius_px * radiusOf((90 - elevation_deg) * degree, projection), [x, y] = placeOf(45, elevation_deg, projection);
-    context.lineWidth = 0.7;
-    circle(context, r, "rgb(140 150 160 / 80%)");
-    drawText({ context, ...paper }, `${elevation_deg}°`, x + 3, y - 3, "left", 10, inkOnSky, halo);
-  }
+  context.lineWidth = 0.7;
+  for (const elevation_deg of elevations_deg)
+    circle(context, radius_px * radiusOf((90 - elevation_deg) * degree, projection), "rgb(140 150 160 / 80%)");
   context.lineWidth = 1.2;
   circle(context, radius_px, paper.muted);
+}
+
+/** On all colours of the sky, which are the same in both themes, and on the horizon. */
+const inkOnSky = "rgb(32 32 32)", halo = "rgb(255 255 255)";
+
+function drawElevations(paper: Paper, projection: SkyProjection): void {
+  for (const elevation_deg of elevations_deg) {
+    const [x, y] = placeOf(45, elevation_deg, projection);
+    drawText(paper, `${elevation_deg}°`, x + 3, y - 3, "left", 10, inkOnSky, halo);
+  }
 }
 
 function circle(context: CanvasRenderingContext2D, radius: number, colour: string): void {
