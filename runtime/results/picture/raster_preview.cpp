@@ -143,7 +143,8 @@ void add_ring_around_landmark(Drawing& drawing, const PreviewLayout& layout, con
   PagePoint low{static_cast<double>(layout.map_size.width), static_cast<double>(layout.map_size.height)}, high{};
   for (std::size_t n = 0; n < background.is_landmark.size(); ++n) {
     if (!background.is_landmark[n]) continue;
-    const auto x = static_cast<double>(n % layout.map_size.width), y = static_cast<double>(n / layout.map_size.width);
+    const std::size_t row = n / layout.map_size.width;
+    const auto x = static_cast<double>(n % layout.map_size.width), y = static_cast<double>(row);
     low = {std::min(low.x, x), std::min(low.y, y)};
     high = {std::max(high.x, x + 1.0), std::max(high.y, y + 1.0)};
   }
