@@ -59,7 +59,7 @@ void add_plan_legend(Drawing& drawing, const CellPlanFrame& frame, const CellSce
   for (const auto& [zone, words] : {std::pair{CellZone::cell, "the cell"},
                                     {CellZone::near, "near: its neighborhood"},
                                     {CellZone::far, "far: in the far map"}}) {
-    const auto is_in_zone = [&](const MeshPart& part) { return zone_of(part.cell, scenery.contents) == zone; };
+    const auto is_in_zone = [&, named = zone](const MeshPart& part) { return zone_of(part.cell, scenery.contents) == named; };
     if (std::ranges::none_of(scenery.around, is_in_zone)) continue;
     drawing.shapes.emplace_back(box(place, 16.0, 16.0, building_colour(zone)));
     drawing.shapes.emplace_back(box({place.x + 18.0, place.y}, 16.0, 16.0, street_colour(zone)));

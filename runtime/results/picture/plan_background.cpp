@@ -12,7 +12,7 @@ namespace farlod {
 namespace {
 
 // Greys must stay apart from that of buildings
-constexpr float darkest = 0.6F, lightest = 1.25F, share_of_grey = 0.25F;
+constexpr float darkest = 0.6F, lightest = 1.25F;
 /// A few pixels are not seen.
 constexpr std::size_t pixels_for_one_that_shows = 100;
 

@@ -71,6 +71,9 @@ Greys greys_of(const PreviewRaster& raster, const PlanBackground& background) {
   return greys;
 }
 
+/// How much of the ground's light is seen in its grey, which must stay apart from that of buildings.
+constexpr float share_of_grey = 0.25F;
+
 Colour grey_of(const PlanBackground& background, std::size_t pixel) {
   if (!background.is_covered.empty() && background.is_covered[pixel]) return covered_grey;
   const float light = background.shading.empty() ? 1.0F : background.shading[pixel];

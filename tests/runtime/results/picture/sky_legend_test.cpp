@@ -44,7 +44,7 @@ std::vector<std::string> words_drawn_in(const Drawing& drawing) {
 }
 
 TEST(PanoramaLegend, NamesTheColoursThatAreThere) {
-  const auto words_of = [](FarView view) {
+  const auto words_of = [](const FarView& view) {
     Drawing drawing{{400, 400}, ""};
     (void)add_panorama_legend(drawing, {}, view);
     return words_drawn_in(drawing);
