@@ -199,7 +199,8 @@ std::string bounds_row(const std::string& city, const FarFieldRow& row, const st
 std::string bounds_section(const Results& results) {
   std::string text =
       "\n## Certain bounds\n\n`--bounds` of the engine `auto`. *Outside* counts the receivers whose sky, of all triangles of "
-      "the city, is beyond these bounds by more than .00002.\n\n| city | c, m | N | on | receivers | mean width | max width | outside "
+      "the city, is beyond these bounds by more than .00002.\n\n| city | c, m | N | on | receivers | mean width | max width | "
+      "outside "
       "|\n|---|---|---|---|---|---|---|---|\n";
   for (const CityResults& city : results.cities)
     for (const FarFieldRow& row : city.far_field.rows) {

@@ -212,10 +212,6 @@ NamedPoints near_city(NamedPoints named, const GivenPlaces& given, const Package
                                                     : "check the coordinates: they are of that CRS, or longitude and latitude."));
 }
 
-}  // namespace
-
-namespace {
-
 /// Gives an attribute a name that neither another one nor a column of the output has.
 void rename_attribute(std::size_t k, const std::vector<std::string>& own, NamedPoints& named) {
   const std::string name = named.attributes.names()[k];
