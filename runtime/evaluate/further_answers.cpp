@@ -241,8 +241,8 @@ void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty
   canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, certainty, pixels, std::move(stop));
 }
 
-void FurtherAnswers::look_around(const SeenScene& scene, const SkyDirections& directions, SkyWeight weight,
-                                 std::stop_token stop) {
+void FurtherAnswers::find_view_factors(const SeenScene& scene, const SkyDirections& directions, SkyWeight weight,
+                                       std::stop_token stop) {
   views_.emplace(scene, directions, weight, quantities_, answers_, std::move(stop));
 }
 
@@ -296,10 +296,13 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   for (std::size_t l = 0; l < numbers.size(); ++l)
     std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(l * columns), columns,
                 answers_.further.begin() + static_cast<std::ptrdiff_t>(cell_.receivers[numbers[l]].index * columns));
-  if (!views_) return;
-  std::vector<Receiver> of_packet;
-  for (const std::uint32_t number : numbers) of_packet.push_back(cell_.receivers[number]);
-  views_->store(of_packet, &profiles_[packet]);
+  if (views_) store_views(packet, numbers);
+}
+
+void FurtherAnswers::store_views(std::size_t packet, std::span<const std::uint32_t> numbers) {
+  std::vector<Receiver> receivers;
+  for (const std::uint32_t number : numbers) receivers.push_back(cell_.receivers[number]);
+  views_->store(receivers, &profiles_[packet]);
 }
 
 }  // namespace farlod

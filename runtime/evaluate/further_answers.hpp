@@ -41,7 +41,7 @@ class FurtherAnswers {
   /// places are left out.
   void draw_canopies(const PackageReader& package, CanopyCertainty certainty, const CanopyCity* pixels, std::stop_token stop);
   /// View factors are found of each group: no ray is traced above the horizons of profiles.
-  void look_around(const SeenScene& scene, const SkyDirections& directions, SkyWeight weight, std::stop_token stop);
+  void find_view_factors(const SeenScene& scene, const SkyDirections& directions, SkyWeight weight, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
   /// How many rays were traced against the whole city so far.
   [[nodiscard]] std::uint64_t retraced_rays() const { return canopies_ ? canopies_->retraced_rays() : 0; }
@@ -56,6 +56,7 @@ class FurtherAnswers {
   void find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
                      std::span<const PacketAnswer> drawn);
   void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers);
+  void store_views(std::size_t packet, std::span<const std::uint32_t> numbers);
 
   const FurtherQuantities& quantities_;
   const CellReceivers& cell_;

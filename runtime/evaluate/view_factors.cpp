@@ -133,14 +133,14 @@ void ViewFactors::store(const CellReceivers& cell) {
 void ViewFactors::store(std::span<const Receiver> packet, const SkyProfile* profile) {
   std::size_t first_lane = 0;
   for_each_normal(packet, [&](std::span<const Receiver> alike) {
-    look_around(alike.front().normal);
+    turn_to(alike.front().normal);
     find_known_sky(profile);
     store_alike(alike, first_lane);
     first_lane += alike.size();
   });
 }
 
-void ViewFactors::look_around(const Point3f& normal) {
+void ViewFactors::turn_to(const Point3f& normal) {
   if (normal == normal_) return;
   normal_ = normal;
   around_ = directions_.around(normalized(Point3d{normal.x, normal.y, normal.z}));

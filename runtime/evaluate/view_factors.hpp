@@ -53,7 +53,7 @@ class ViewFactors {
   void store(std::span<const Receiver> packet, const SkyProfile* profile);
 
  private:
-  void look_around(const Point3f& normal);
+  void turn_to(const Point3f& normal);
   void find_known_sky(const SkyProfile* profile);
   void store_alike(std::span<const Receiver> receivers, std::size_t first_lane);
 
@@ -63,8 +63,7 @@ class ViewFactors {
   const FurtherQuantities& quantities_;
   const SkyAnswers& answers_;
   std::stop_token stop_;
-  // Of the receivers that were asked last, all of which look the same way
-  Point3f normal_{0.0F, 0.0F, 0.0F};
+  Point3f normal_{0.0F, 0.0F, 0.0F};  ///< of the receivers that were asked last
   std::vector<Point3d> around_;
   std::vector<RayBetweenAzimuths> rays_;  ///< these directions
   std::vector<std::uint16_t> in_sky_;     ///< for each of them, a bit for each receiver of the packet

@@ -266,22 +266,6 @@ TEST_P(ScalarKernels, DifferencesAndCounts) {
   }
 }
 
-TEST_P(ScalarKernels, RaysAboveTheHorizonsBesideThem) {
-  const Rows rows = random_slopes();
-  std::vector<RayBetweenAzimuths> rays;
-  const auto count = static_cast<std::uint32_t>(azimuths_.size());
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const std::uint32_t after = (k + 1) % count;
-    for (const float slope : {rows[k][k % lanes], rows[after][k % lanes], random_.between(0.0, 3.0), -1.0F})
-      rays.push_back({k, after, slope});
-  }
-  std::vector<std::uint16_t> above(rays.size());
-  sky().find_rays_above(data(rows), rays, above.data());
-  for (std::size_t n = 0; n < rays.size(); ++n)
-    for (std::size_t l = 0; l < lanes; ++l)
-      EXPECT_EQ(has_bit(above[n], l), rows[rays[n].before][l] < rays[n].slope && rows[rays[n].after][l] < rays[n].slope);
-}
-
 TEST_P(ScalarKernels, HorizonsRaisedToBinsOfAFarMap) {
   std::vector<float> here, above, lower, upper;
   for (int n = 0; n < 8; ++n) {

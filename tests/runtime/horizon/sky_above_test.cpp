@@ -7,9 +7,11 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
 #include "base/frame.hpp"
 #include "farlod/angle.hpp"
+#include "horizon/kernels.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/sky_partition.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
@@ -61,6 +63,29 @@ ReceiverPacket packet_looking(std::span<const Point3f> normals) {
   ReceiverPacket packet;
   for (std::size_t n = 0; n < ReceiverPacket::lanes; ++n) packet.add({n, {}, normals[n % normals.size()]});
   return packet;
+}
+
+TEST(SkyAbove, HasTheRaysAboveBothHorizonsBesideThem) {
+  const AzimuthSampling ring = AzimuthSampling::even(64, {});
+  const RandomHorizons random_horizons(ring);
+  const PacketHorizon& horizon = random_horizons.horizon();
+  RandomPlaces random;
+  std::vector<RayBetweenAzimuths> rays;
+  for (std::uint32_t k = 0; k < ring.size(); ++k) {
+    const std::uint32_t after = (k + 1) % static_cast<std::uint32_t>(ring.size());
+    const std::size_t lane = k % packet_lanes;
+    // A ray along a horizon is not above it
+    for (const float slope : {horizon.row(k)[lane], horizon.row(after)[lane], random.between(0.0, 3.0), -1.0F})
+      rays.push_back({k, after, slope});
+  }
+  for (const KernelTarget& target : runnable_kernels()) {
+    std::vector<std::uint16_t> above(rays.size());
+    target.sky->find_rays_above(horizon.slopes(), rays, above.data());
+    for (std::size_t n = 0; n < rays.size(); ++n)
+      for (std::size_t l = 0; l < packet_lanes; ++l)
+        EXPECT_EQ(has_bit(above[n], l), std::max(horizon.row(rays[n].before)[l], horizon.row(rays[n].after)[l]) < rays[n].slope)
+            << target.name;
+  }
 }
 
 TEST(SkyAbove, IsTheIntegralOverRandomHorizons) {
