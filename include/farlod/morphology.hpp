@@ -108,10 +108,12 @@ using Zone = std::vector<std::vector<Point2d>>;
 /// ground (a surface model), or has not cut them at the borders of cells; Cancelled, PackageUnusable, PackageDamaged.
 [[nodiscard]] FARLOD_EXPORT std::vector<CellMorphology> morphology_of_cells(const Package& package, const RunSettings& run = {});
 
-/// The same of zones, in their order; they may overlap. Their plan area is that of their rings, also beyond the grid.
+/// The same of zones, in their order; they may overlap. Their plan area is that of their rings, also beyond the grid; it is 0 of
+/// zones that lie beyond the grid as a whole, of which nothing is known.
 ///   (1) Walls and roofs are cut exactly at the borders of zones: sums over zones that part the city are those of the city.
 ///   (2) A wall on a border belongs to the zone behind it, where its building is.
-/// Throws InvalidArgument for a coordinate that is no number, or larger than 1e8 m, or for a zone without area, too.
+/// Throws InvalidArgument for a coordinate that is no number, or larger than 1e8 m, for a zone without area, and where all zones
+/// lie beyond the grid, too.
 [[nodiscard]] FARLOD_EXPORT std::vector<UrbanForm> morphology_of_zones(const Package& package, const std::vector<Zone>& zones,
                                                                        const RunSettings& run = {});
 
@@ -128,7 +130,7 @@ using Zone = std::vector<std::vector<Point2d>>;
                                                               double spacing_m, const EvaluationSettings& settings = {},
                                                               const RunSettings& run = {});
 
-/// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell.
+/// The columns of the table of cells, and what a cell has there: nothing where it has nothing to tell, or no plan area.
 [[nodiscard]] FARLOD_EXPORT std::vector<ColumnDescription> morphology_columns();
 [[nodiscard]] FARLOD_EXPORT std::vector<std::optional<double>> morphology_values(const UrbanForm& form);
 

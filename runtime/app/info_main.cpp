@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -147,8 +148,12 @@ std::string settings_of_table(const InfoOptions& options) {
   return options.sky_spacing_m ? fmt::format("{} --svf {:g}", cells, *options.sky_spacing_m) : cells;
 }
 
-/// Returns the number of its rows.
-std::size_t write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
+struct RowsOfTable {
+  std::size_t all = 0, beyond_grid = 0;
+};
+
+/// Returns the numbers of its rows.
+RowsOfTable write_table_of_cells(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
   const PackageDescription& city = facts.description;
   TableFrame frame{.columns = {}, .crs_wkt = city.crs_wkt, .epsg = city.epsg, .convergence = city.convergence};
   frame.columns.further = morphology_columns();
@@ -158,16 +163,21 @@ std::size_t write_table_of_cells(const Package& package, const PackageFacts& fac
   if (options.zones_file.empty()) {
     const std::vector<CellMorphology> cells = morphology_of(package, options);
     write(table_of_cells(cells), frame, options.cells_file);
-    return cells.size();
+    return {cells.size(), 0};
   }
   const RequestedZones zones = zones_in(options, city);
-  write(table_of_zones(zones, forms_of(package, zones, options)), frame, options.cells_file);
-  return zones.zones.size();
+  const std::vector<UrbanForm> forms = forms_of(package, zones, options);
+  write(table_of_zones(zones, forms), frame, options.cells_file);
+  const auto is_beyond = [](const UrbanForm& form) { return form.amounts.plan_area_m2 == 0.0; };
+  return {forms.size(), static_cast<std::size_t>(std::ranges::count_if(forms, is_beyond))};
 }
 
 /// "cells.csv: 4 rows", in a line.
-std::string text_of_table(const std::filesystem::path& file, std::size_t rows) {
-  return fmt::format("{}: {} {}\n", file.string(), rows, rows == 1 ? "row" : "rows");
+std::string text_of_table(const std::filesystem::path& file, const RowsOfTable& rows) {
+  const std::string beyond = rows.beyond_grid > 0 ? fmt::format("; {} {} beyond the grid, without values", rows.beyond_grid,
+                                                                rows.beyond_grid == 1 ? "lies" : "lie")
+                                                  : std::string();
+  return fmt::format("{}: {} {}{}\n", file.string(), rows.all, rows.all == 1 ? "row" : "rows", beyond);
 }
 
 void require_outputs(const InfoOptions& options) {

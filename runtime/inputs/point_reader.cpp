@@ -156,7 +156,7 @@ class UnreadRows {
     const std::string lines = count_ == 1 ? "" : " (lines " + lines_ + (count_ > lines_named ? ", …)" : ")");
     if (10 * count_ > rows)
       throw PointsError(std::string(first_->what()) + "; rows that cannot be read: " + std::to_string(count_) + " of " +
-                        std::to_string(rows) + lines + ", where a tenth at the most may be: " + std::to_string(rows / 10));
+                        std::to_string(rows) + lines + "; up to a tenth of the rows may be left out");
     points.skipped_features = count_;
     points.notes.push_back(std::string(first_->what()) + ". " + std::to_string(count_) + " of " + std::to_string(rows) +
                            " rows cannot be read and " + (count_ == 1 ? "has" : "have") + " no answer" + lines + ".");

@@ -111,6 +111,10 @@ std::vector<ColumnDescription> morphology_columns() {
 
 std::vector<std::optional<double>> morphology_values(const UrbanForm& form) {
   std::vector<std::optional<double>> values;
+  if (!(form.amounts.plan_area_m2 > 0.0)) {
+    values.resize(morphology_columns().size());
+    return values;
+  }
   for (const MorphologyColumn& c : before_winds) values.push_back(c.value(form));
   for (std::size_t k = 0; k < wind_directions; ++k) values.emplace_back(form.lambda_f(k));
   for (std::size_t k = 0; k < height_bins; ++k) values.push_back(form.height_share(k));

@@ -52,6 +52,18 @@ double area_of_zone(const std::vector<ZoneTrapezoid>& trapezoids, std::size_t nu
   throw InvalidArgument("zone " + std::to_string(number) + " (counted from 0) has no area: give polygons, or leave it out");
 }
 
+[[noreturn]] void throw_beyond(const std::vector<Zone>& zones, const package::Manifest& m) {
+  Box2d box;
+  for (const Zone& zone : zones)
+    for (const auto& ring : zone)
+      for (const Point2d p : ring) box.add(p);
+  const Box2d city = m.projected_outline(m.grid.rectangle());
+  const auto text = [](Point2d p) { return std::to_string(std::llround(p.x)) + ", " + std::to_string(std::llround(p.y)); };
+  throw InvalidArgument("none of " + std::to_string(zones.size()) + " zones lies in the city: they lie from " + text(box.low) +
+                        " to " + text(box.high) + ", and the grid of the city from " + text(city.low) + " to " + text(city.high) +
+                        ". Give zones of this city, or check whether they are in another CRS");
+}
+
 /// Where zones lie, cell by cell.
 class ZonesOfGrid {
  public:
@@ -59,11 +71,14 @@ class ZonesOfGrid {
     for (std::size_t n = 0; n < zones.size(); ++n) {
       const std::vector<ZoneTrapezoid> trapezoids = trapezoids_of(in_grid_frame(zones[n], m));
       plan_areas_m2_.push_back(area_of_zone(trapezoids, n));
+      is_met_.push_back(false);
       for (const ZoneTrapezoid& t : trapezoids) add(n, t);
     }
     cells_.insert(cells_.end(), by_cell_.begin(), by_cell_.end());
+    if (!zones.empty() && cells_.empty()) throw_beyond(zones, m);
   }
-  [[nodiscard]] double plan_area_m2(std::size_t zone) const { return plan_areas_m2_[zone]; }
+  /// None of one that lies beyond the grid.
+  [[nodiscard]] double plan_area_m2(std::size_t zone) const { return is_met_[zone] ? plan_areas_m2_[zone] : 0.0; }
   /// Those that zones meet, by their places in the grid.
   [[nodiscard]] const std::vector<std::pair<std::size_t, ZonesInCell>>& cells() const { return cells_; }
 
@@ -79,9 +94,11 @@ class ZonesOfGrid {
     for (std::int32_t j = all.j_begin; j < all.j_end; ++j)
       for (std::int32_t i = all.i_begin; i < all.i_end; ++i)
         by_cell_[grid_.cells.index_of({i, j})][zone].push_back(t.moved_to(grid_.corner_of({i, j})));
+    if (all.size() > 0) is_met_[zone] = true;
   }
   const Grid& grid_;
   std::vector<double> plan_areas_m2_;
+  std::vector<bool> is_met_;
   std::map<std::size_t, ZonesInCell> by_cell_;
   std::vector<std::pair<std::size_t, ZonesInCell>> cells_;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -147,6 +148,20 @@ TEST(Zones, SkyOfZonesRefusesWhatMakesNoSense) {
   EXPECT_TRUE(sky_of_zones(package, {}, 2.0).empty());
   EXPECT_THROW((void)sky_of_zones(package, {}, 0.0), InvalidArgument);
   EXPECT_THROW((void)sky_of_zones(package, {}, 2.0, of_region), InvalidArgument);
+}
+
+TEST(Zones, BeyondTheGridNothingIsKnown) {
+  const FormTown town = form_house();
+  const Package package = town.packed(50.0, AlignMode::none);
+  const Zone beyond{form_ring({{5000, 5000}, {5100, 5000}, {5100, 5100}})}, here{form_ring({{-10, -20}, {10, -20}, {10, 30}})};
+  const auto forms = morphology_of_zones(package, {here, beyond});
+  EXPECT_GT(forms[0].amounts.plan_area_m2, 0.0);
+  EXPECT_EQ(forms[1].amounts.plan_area_m2, 0.0);
+  EXPECT_TRUE(morphology_values(forms[0]).front().has_value());
+  const auto values = morphology_values(forms[1]);
+  EXPECT_EQ(values.size(), morphology_columns().size());
+  EXPECT_TRUE(std::ranges::none_of(values, [](const auto& value) { return value.has_value(); }));
+  EXPECT_THROW((void)morphology_of_zones(package, {beyond}), InvalidArgument);
 }
 
 TEST(Zones, ZonesWithoutAreaAreRefused) {
