@@ -25,8 +25,8 @@ struct PlanBackground {
   std::vector<bool> is_landmark = {};
 };
 
-/// The colour of the building that receivers look for: that of no value, nor of a line.
-inline constexpr Colour landmark_colour{213, 94, 0};
+/// The colours of the building that receivers look for, and of places that see nothing of it: those of no value, nor of a line.
+inline constexpr Colour landmark_colour{213, 94, 0}, unseen_colour{206, 222, 240};
 
 /// With all pixels that lie so many columns or rows beside one that is covered, row by row: what has no value has its middle
 /// covered, or most of it, and perhaps not the pixels at its edge.

@@ -88,7 +88,14 @@ bool is_at_edge(const std::vector<bool>& is_landmark, PixelSize map, Pixel pixel
   return !is_landmark[n - rim] || !is_landmark[n + rim] || !is_landmark[n - rim * map.width] || !is_landmark[n + rim * map.width];
 }
 
-Picture map_of(const PreviewRaster& raster, const ValueScale& scale, const PlanBackground& background) {
+/// Whether a landmark is asked for, and a place sees nothing of it.
+bool sees_no_landmark(const RasterFrame& frame, float value) { return !frame.landmark.empty() && value == 0.0F; }
+
+Colour colour_of_value(const RasterFrame& frame, const ValueScale& scale, float value) {
+  return sees_no_landmark(frame, value) ? unseen_colour : scale.colour_of(static_cast<double>(value));
+}
+
+Picture map_of(const PreviewRaster& raster, const ValueScale& scale, const PlanBackground& background, const RasterFrame& frame) {
   Picture map({raster.columns, raster.rows}, no_value_grey);
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column) {
@@ -98,7 +105,7 @@ Picture map_of(const PreviewRaster& raster, const ValueScale& scale, const PlanB
                                (has_no_value(value) || is_at_edge(background.is_landmark, map.size(), {column, row}));
       map.set({column, row}, is_landmark           ? landmark_colour
                              : has_no_value(value) ? grey_of(background, n)
-                                                   : scale.colour_of(static_cast<double>(value)));
+                                                   : colour_of_value(frame, scale, value));
     }
   return map;
 }
@@ -128,11 +135,14 @@ void add_colour_bar(Drawing& drawing, const PreviewLayout& layout, const ValueSc
   }
 }
 
-std::vector<LegendEntry> legend_of(const PlanBackground& background, const Greys& greys, const RasterFrame& frame) {
+std::vector<LegendEntry> legend_of(const PreviewRaster& raster, const PlanBackground& background, const RasterFrame& frame) {
   using Sign = LegendEntry::Sign;
+  const Greys greys = greys_of(raster, background);
   std::vector<LegendEntry> entries;
   if (std::ranges::find(background.is_landmark, true) != background.is_landmark.end())
     entries.push_back({Sign::box, landmark_colour, "landmark " + frame.landmark});
+  if (std::ranges::any_of(raster.values, [&](float value) { return sees_no_landmark(frame, value); }))
+    entries.push_back({Sign::box, unseen_colour, "nothing of it is seen"});
   if (greys.of_buildings) entries.push_back({Sign::box, covered_grey, "buildings"});
   if (greys.others) entries.push_back({Sign::box, no_value_grey, frame.why_no_value.empty() ? "no data" : frame.why_no_value});
   if (!background.outlines.empty()) entries.push_back({Sign::line, outline_colour, "roofs"});
@@ -225,7 +235,7 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, cons
   const PixelSize map{raster.columns, raster.rows};
   const auto title = in_lines(scale.title, title_height, heading_width(map)),
              subtitle = in_lines(subtitle_of(frame, scale), text_height, heading_width(map));
-  const auto legend = legend_in_rows(legend_of(background, greys_of(raster, background), frame), legend_width(map));
+  const auto legend = legend_in_rows(legend_of(raster, background, frame), legend_width(map));
   const bool is_beyond_map = !scale.unit.empty() && std::ranges::any_of(subtitle, [&](const std::string& line) {
     return width_of_words(line, text_height) > static_cast<double>(map.width);
   });
@@ -233,7 +243,7 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, cons
   Drawing drawing{layout.picture, scale.title};
   const double below = add_lines(drawing, title, first_line_of_title, title_height, line_of_title, ink);
   add_lines(drawing, subtitle, below, text_height, line_of_subtitle, muted);
-  drawing.shapes.emplace_back(Image{layout.map, map_of(raster, scale, background)});
+  drawing.shapes.emplace_back(Image{layout.map, map_of(raster, scale, background, frame)});
   add_outlines(drawing, layout, raster, background);
   add_ring_around_landmark(drawing, layout, background);
   add_colour_bar(drawing, layout, scale);

@@ -78,6 +78,17 @@ TEST_F(LandmarkPicture, IsNotNamedWhereItIsNotSeen) {
   EXPECT_FALSE(has_words(drawing(NAN), "landmark B"));
 }
 
+/// Dark colours of small shares say that it is seen.
+TEST_F(LandmarkPicture, HasAColourForPlacesThatSeeNothingOfIt) {
+  place_landmark(30, 70);
+  EXPECT_EQ(colour_at(drawing(0.0F), 5, 5), unseen_colour);
+  EXPECT_TRUE(has_words(drawing(0.0F), "nothing of it is seen"));
+  EXPECT_NE(colour_at(drawing(0.001F), 5, 5), unseen_colour);
+  EXPECT_FALSE(has_words(drawing(0.001F), "nothing of it is seen"));
+  frame_.landmark = {};
+  EXPECT_NE(colour_at(drawing(0.0F), 5, 5), unseen_colour);
+}
+
 /// A legend of what is all landmark names no other building.
 TEST_F(LandmarkPicture, HasNoGreyOfItsOwn) {
   place_landmark(0, edge);
