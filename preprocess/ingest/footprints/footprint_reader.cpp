@@ -135,10 +135,18 @@ constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "bui
 /// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
 constexpr std::array<std::string_view, 2> lowest_storeys_names{"building:min_level", "min_floor"};
 
+/// The names of the fields that the settings take for something, but for one of them.
+std::vector<std::string> named_besides(const FootprintSettings& s, const std::optional<std::string>& one) {
+  std::vector<std::string> names;
+  for (const auto* field : {&s.height_field, &s.storeys_field, &s.roof_field, &s.base_field})
+    if (*field && *field != one) names.push_back(lower_case(**field));
+  return names;
+}
+
 /// The fields with known names, in the order of these names, after the field that the settings name. Of two fields with the same
-/// name, the first.
+/// name, the first. `others` are of other things, whatever they are called.
 std::vector<std::size_t> fields_called(const std::vector<std::string>& names, const std::optional<std::string>& asked,
-                                       std::span<const std::string_view> known) {
+                                       std::span<const std::string_view> known, std::span<const std::string> others = {}) {
   std::vector<std::size_t> fields;
   const auto add = [&](const auto& is_it) {
     const auto found = std::find_if(names.begin(), names.end(), is_it);
@@ -147,7 +155,10 @@ std::vector<std::size_t> fields_called(const std::vector<std::string>& names, co
   };
   if (asked) add([&](const std::string& name) { return lower_case(name) == lower_case(*asked); });
   FARLOD_EXPECTS(!asked || fields.size() == 1);
-  for (const std::string_view wanted : known) add([&](const std::string& name) { return is_column_of(name, wanted); });
+  for (const std::string_view wanted : known)
+    add([&](const std::string& name) {
+      return is_column_of(name, wanted) && std::find(others.begin(), others.end(), lower_case(name)) == others.end();
+    });
   return fields;
 }
 
@@ -189,8 +200,8 @@ FootprintHeights::FootprintHeights(std::vector<std::string> field_names, const F
       floor_height_m_(settings.floor_height_m),
       roof_(fields_called(names_, settings.roof_field, {})),
       base_(fields_called(names_, settings.base_field, {})),
-      heights_(fields_called(names_, settings.height_field, height_names)),
-      storeys_(fields_called(names_, settings.storeys_field, storeys_names)),
+      heights_(fields_called(names_, settings.height_field, height_names, named_besides(settings, settings.height_field))),
+      storeys_(fields_called(names_, settings.storeys_field, storeys_names, named_besides(settings, settings.storeys_field))),
       lowest_heights_(fields_called(names_, {}, lowest_height_names)),
       lowest_storeys_(fields_called(names_, {}, lowest_storeys_names)),
       roof_storeys_(fields_called(names_, {}, roof_storeys_names)) {}

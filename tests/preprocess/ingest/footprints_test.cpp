@@ -269,6 +269,14 @@ TEST(FootprintHeights, AreTrustedInOneOrder) {
   EXPECT_EQ(all.reason(settings).code, ProblemCode::no_height);
 }
 
+TEST(FootprintHeights, AFieldThatIsNamedForSomethingIsThatAlone) {
+  EXPECT_EQ(Feature().number("Height", 4).extent({.storeys_field = "height"}).top_m, 12.0);
+  EXPECT_EQ(Feature().number("height", 4).number("hoehe", 7).extent({.storeys_field = "height"}).top_m, 7.0);
+  EXPECT_EQ(Feature().text("levels", "").number("height", 7).extent({.height_field = "levels"}).top_m, 7.0);
+  EXPECT_EQ(Feature().number("levels", 9000).reason({.height_field = "levels"}).code, ProblemCode::absurd_height)
+      << "no storeys of that name are left";
+}
+
 TEST(FootprintHeights, ATextThatIsNoLengthSaysNothing) {
   const Feature feature = Feature().text("height", "high").text("building:levels", "3");
   EXPECT_EQ(feature.extent().top_m, 9.0);
