@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plausibility/elevations_as_heights.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/lower_case.hpp"
@@ -135,6 +139,84 @@ void require_heights_above_ground(const LocatedCity& located, const KnownGroundH
       throw InputError((n < located.sources.size() ? located.sources[n] + ": " : "") +
                        "its heights are elevations: each is for nearly all buildings that of a house on the ground of the "
                        "terrain. Name their field with --roof-field in place of --height-field.");
+}
+
+namespace {
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <class Value>
+double median_of(std::span<const HeightOnGround> heights, const Value& value) {
+  std::vector<double> values;
+  for (const HeightOnGround& h : heights) values.push_back(value(h));
+  return median_of(std::move(values));
+}
+
+bool have_a_default(std::span<const HeightOnGround> heights) {
+  std::map<double, std::size_t> counts;
+  for (const HeightOnGround& h : heights)
+    if (2 * ++counts[h.height_m] >= heights.size()) return true;
+  return false;
+}
+
+/// The footprints of a file that are raised from known ground.
+struct RaisedFootprints {
+  std::vector<HeightOnGround> heights;
+  Point3d highest;
+
+  void add(std::span<const Point3d> points, const SurveyedGround& ground) {
+    Box2d box;
+    double height_m = 0.0;
+    for (const Point3d& p : points) {
+      box.add(horizontal(p));
+      height_m = std::max(height_m, p.z);
+    }
+    const Point2d middle = 0.5 * (box.low + box.high);
+    const auto ground_m = box.empty() || !ground.extent_city.contains(middle) ? std::nullopt : ground.height_at(middle);
+    if (!ground_m) return;
+    if (heights.empty() || height_m > highest.z) highest = {middle.x, middle.y, height_m};
+    heights.push_back({height_m, *ground_m});
+  }
+};
+
+}  // namespace
+
+std::optional<LikelyElevations> likely_elevations(std::span<const HeightOnGround> heights) {
+  constexpr std::size_t enough = 10;
+  constexpr double lowest_ground_m = 15.0, least_above_m = 2.0, most_above_m = 60.0;
+  if (heights.size() < enough) return std::nullopt;
+  const auto above =
+      std::count_if(heights.begin(), heights.end(), [](const HeightOnGround& h) { return h.height_m > h.ground_m; });
+  if (20 * static_cast<std::size_t>(above) < 19 * heights.size() || have_a_default(heights)) return std::nullopt;
+  const LikelyElevations found{median_of(heights, [](const HeightOnGround& h) { return h.height_m; }),
+                               median_of(heights, [](const HeightOnGround& h) { return h.ground_m; }),
+                               median_of(heights, [](const HeightOnGround& h) { return h.height_m - h.ground_m; })};
+  const bool are_likely = found.ground_m > lowest_ground_m && least_above_m <= found.above_m && found.above_m <= most_above_m;
+  return are_likely ? std::optional(found) : std::nullopt;
+}
+
+void report_heights_like_elevations(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
+  std::vector<RaisedFootprints> files(std::max<std::size_t>(located.sources.size(), 1));
+  const CityModel& city = located.city;
+  city.for_each_building([&](std::size_t, const Building& b) {
+    if (b.height_reference == HeightReference::on_ground && b.foot == Foot::on_ground)
+      files[b.source].add(city.points_of(b), ground);
+  });
+  const Point2d origin_m = located.georeference.origin_m;
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    const auto found = likely_elevations(files[n].heights);
+    if (!found) continue;
+    report.add({ProblemCode::implausible_size, n < located.sources.size() ? located.sources[n] : "", "the whole file",
+                fmt::format("nearly all of its {} heights, typically {:.1f} m, are larger than the elevation of their ground, "
+                            "typically {:.1f} m, as those of no town with low buildings are: are they elevations of roofs, "
+                            "typically {:.1f} m above the ground? Name their field with --roof-field in place of --height-field",
+                            files[n].heights.size(), found->height_m, found->ground_m, found->above_m),
+                files[n].highest + Point3d{origin_m.x, origin_m.y, 0.0}});
+  }
 }
 
 }  // namespace farlod::plausibility

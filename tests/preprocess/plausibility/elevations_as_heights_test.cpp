@@ -131,5 +131,26 @@ TEST(ElevationsAsHeights, AreKnownByTheTerrain) {
   EXPECT_EQ(refused(std::vector<SaidHeight>(40, SaidHeight{50.0}), 40.0), "no refusal") << "a default height";
 }
 
+/// What is told of heights on level ground.
+std::string doubt(const std::vector<SaidHeight>& heights, double ground_m) {
+  Report report;
+  SurveyedGround ground{[&](Point2d) { return std::optional(ground_m); }, {}, true};
+  for (const Point2d corner : {Point2d{-10.0, -10.0}, Point2d{1e4, 1e4}}) ground.extent_city.add(corner);
+  report_heights_like_elevations(raised(heights), ground, report);
+  return report.problems().empty() ? "" : report.problems().front().detail;
+}
+
+TEST(ElevationsAsHeights, AreDoubtedWhereNoBuildingIsLow) {
+  const SmallTown town{.ground_m = 100.0};
+  EXPECT_THAT(doubt(town.table(elevation), 100.0),
+              testing::AllOf(HasSubstr("40 heights, typically 11"), HasSubstr("typically 100.0 m"), HasSubstr("--roof-field")));
+  EXPECT_EQ(doubt(town.table(height), 100.0), "");
+  EXPECT_EQ(doubt(SmallTown{}.table(height), 10.0), "") << "near the sea";
+  EXPECT_EQ(doubt(SmallTown{.most_m = 60.0}.table(height), 16.0), "") << "a town of high and low buildings";
+  EXPECT_EQ(doubt(SmallTown{.ground_m = 300.0}.table(elevation), 100.0), "") << "200 m above the ground";
+  EXPECT_EQ(doubt(SmallTown{.ground_m = 100.0, .count = 9}.table(elevation), 100.0), "");
+  EXPECT_EQ(doubt(std::vector<SaidHeight>(40, SaidHeight{50.0}), 40.0), "") << "a default height";
+}
+
 }  // namespace
 }  // namespace farlod::plausibility
