@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tiles/crowns_on_ground.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -9,6 +11,7 @@
 #include "base/cancellation.hpp"
 #include "city/geometry.hpp"
 #include "plausibility/doubtful_trees.hpp"
+#include "plausibility/elevations_as_heights.hpp"
 
 namespace farlod::tiles {
 namespace {
@@ -96,6 +99,7 @@ class CellHeights {
     const double above_m = is_elevation ? top_m - ground_m : top_m;
     if (is_elevation && above_m < lowest_canopy_m) return std::nullopt;
     if (above_m > 0.0) heights.add(above_m);
+    if (!is_elevation && above_m > 0.0) on_ground.add({above_m, ground_m});
     if (above_m > 0.0 && above_m <= highest_tree_m) return above_m;
     unusable.add(p_city, "a height of " + metres(above_m) + " above the ground");
     return std::nullopt;
@@ -119,6 +123,7 @@ class CellHeights {
   CellCount unusable, trunks;
   std::uint64_t without_trunk = 0;
   plausibility::HeightsOfTrees heights;
+  plausibility::SomeOfMany<plausibility::HeightOnGround> on_ground;
 
  private:
   const CanopyRaster& canopy_;
@@ -126,12 +131,26 @@ class CellHeights {
 };
 
 /// Told where half of the cells are higher than any tree, as centimetres and elevations are.
-void report_tall(const CanopyRaster& canopy, const CellHeights& cells, Point2d origin_m, Report& report) {
+bool report_tall(const CanopyRaster& canopy, const CellHeights& cells, Point2d origin_m, Report& report) {
   const auto doubt = cells.heights.doubt(
       "gdal_edit.py -scale 0.01 FILE says that they are centimetres, --canopy-absolute that they are elevations");
-  if (!doubt) return;
+  if (!doubt) return false;
   const Point2d p = origin_m + cells.unusable.first_city;
   report.add({ProblemCode::implausible_size, canopy.source, "the whole file", *doubt, Point3d{p.x, p.y, 0.0}});
+  return true;
+}
+
+/// Told where no crown is lower than its ground is high: elevations that are lower than any tree.
+void report_elevations(const CanopyRaster& canopy, const CellHeights& cells, Point2d origin_m, Report& report) {
+  const auto found = plausibility::likely_elevations(cells.on_ground.kept());
+  if (!found) return;
+  const Point2d p = origin_m + canopy.centre(canopy.columns / 2, canopy.rows / 2);
+  report.add({ProblemCode::implausible_size, canopy.source, "the whole file",
+              fmt::format("nearly all of its heights of crowns, typically {:.1f} m, are larger than the elevation of their "
+                          "ground, typically {:.1f} m, as those of no wood with low trees are: are they elevations, typically "
+                          "{:.1f} m above the ground? --canopy-absolute says so",
+                          found->height_m, found->ground_m, found->above_m),
+              Point3d{p.x, p.y, 0.0}});
 }
 
 }  // namespace
@@ -183,7 +202,7 @@ void CrownPlacing::place_canopy(const CanopyRaster& canopy, const Ground& ground
       ++counts_.of_canopy;
     }
   }
-  report_tall(canopy, cells, origin_m_, report_);
+  if (!report_tall(canopy, cells, origin_m_, report_)) report_elevations(canopy, cells, origin_m_, report_);
   cells.unusable.tell(ProblemCode::unusable_canopy_height, canopy.source, origin_m_, report_);
   if (cells.without_trunk > 0)
     notes_.push_back(canopy.source + ": " + std::to_string(cells.without_trunk) +
