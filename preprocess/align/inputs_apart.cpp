@@ -12,12 +12,16 @@
 
 #include "city/geometry.hpp"
 #include "farlod/box.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod::align {
 namespace {
 
 /// Towns that are nearer may see each other.
 constexpr double far_apart_m = 5000.0;
+/// Two places, on more cells than a machine should work on in vain.
+constexpr double other_place_m = 100e3;
+constexpr std::size_t too_many_cells = 1'000'000;
 /// Cities have parks, and a grid that is turned has empty corners.
 constexpr double nearly_all_empty = 0.9;
 
@@ -78,11 +82,12 @@ std::optional<std::string> inputs_apart(const LocatedCity& located, const Grid& 
   if (empty < nearly_all_empty) return std::nullopt;
   const Gap gap = widest_gap(extents.of_input);
   if (gap.width_m < far_apart_m) return std::nullopt;
-  return fmt::format(
-      "{} and {} lie {:.0f} km apart with nothing between them, and {} % of {} cells are empty: each is better "
-      "packed on its own",
-      located.sources[gap.from], located.sources[gap.to], gap.width_m / 1000.0, std::floor(100.0 * empty),
-      extents.is_built.size());
+  const std::string apart = fmt::format("{} and {} lie {:.0f} km apart with nothing between them", located.sources[gap.from],
+                                        located.sources[gap.to], gap.width_m / 1000.0);
+  const std::string cells_text = fmt::format("{} % of {} cells", std::floor(100.0 * empty), extents.is_built.size());
+  if (gap.width_m > other_place_m && extents.is_built.size() > too_many_cells)
+    throw InputError(apart + ": " + cells_text + " would be empty. Give the files of one place, or check the CRS of each file.");
+  return apart + ", and " + cells_text + " are empty: each is better packed on its own";
 }
 
 }  // namespace farlod::align

@@ -175,6 +175,30 @@ TEST(GridDoubt, IsThatInputsLieApartWithNothingBetween) {
                                                               HasSubstr("99 % of"), HasSubstr("packed on its own")));
 }
 
+/// Two files of places that are 150 km apart. Returns the refusal.
+std::string refusal_of_two_places(double cell_edge_m) {
+  LocatedCity located;
+  located.sources = {"a.gml", "b.gml"};
+  for (std::uint32_t n = 0; n < 2; ++n) {
+    CityModel town;
+    for (int k = 0; k < 20; ++k) add_extruded(town, rectangle({90e3 * n + 50.0 * k, 120e3 * n}, Angle()), 10.0);
+    town.set_source(n);
+    located.city.append(std::move(town));
+  }
+  GridSettings settings;
+  settings.align = AlignMode::none;
+  settings.cell_edge_m = cell_edge_m;
+  Report report;
+  return scenes::refusal_of<InputError>([&] { (void)align(located, settings, report); });
+}
+
+TEST(GridDoubt, TwoPlacesOnAMillionCellsAreRefused) {
+  EXPECT_THAT(refusal_of_two_places(100.0),
+              testing::AllOf(HasSubstr("a.gml"), HasSubstr("b.gml"), HasSubstr("149 km apart with nothing between"),
+                             HasSubstr("Give the files of one place")));
+  EXPECT_EQ(refusal_of_two_places(1000.0), "no refusal") << "a grid of few cells is doubted alone";
+}
+
 constexpr double huge_m = 1e300;
 
 /// Eight by six cells of 10 m, from (−20, −20) to (60, 40) in the grid frame.
