@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "farlod/error.hpp"
 #include "gdal/cleared_raster_gdal.hpp"
 #include "gdal/height_raster_gdal.hpp"
 #include "georeference/resolved_source.hpp"
@@ -29,6 +30,13 @@ void report_stand_in(const std::string& file, const Crs& own, const StandInOfFil
                   Point3d{found.place.x, found.place.y, 0.0}};
   ProblemLocator(own, FileAxes{}, found.place).locate(problem);
   report.add(std::move(problem));
+}
+
+void require_metres(const std::string& file, std::span<const plausibility::StandIn> stand_ins,
+                    std::span<const std::optional<float>> left_m) {
+  const auto left = std::count_if(left_m.begin(), left_m.end(), [](const auto& m) { return m.has_value(); });
+  if (const auto sign = plausibility::sign_of_another_unit(stand_ins, static_cast<std::size_t>(left)))
+    throw InputError(file + ": " + *sign + ".");
 }
 
 namespace {
@@ -102,8 +110,10 @@ std::vector<StandInOfFile> sampled_stand_ins(const PlacedRaster& raster, plausib
   std::vector<std::optional<float>> heights_m;
   for (std::size_t n = 0; n < samples.numbers.size(); ++n)
     heights_m.push_back(samples.have_data[n] ? raster.height_m(samples.numbers[n]) : std::nullopt);
+  const auto stand_ins = plausibility::take_out_stand_ins(heights_m, of);
+  require_metres(raster.path.string(), stand_ins, heights_m);
   std::vector<StandInOfFile> found;
-  for (const plausibility::StandIn& stand_in : plausibility::take_out_stand_ins(heights_m, of)) {
+  for (const plausibility::StandIn& stand_in : stand_ins) {
     const Point2d pixel = samples.pixels[stand_in.first];
     found.push_back({samples.numbers[stand_in.first], raster.frame().place(pixel.x, pixel.y)});
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,12 @@ struct StandInOfFile {
 void report_stand_in(const std::string& file, const Crs& own, const StandInOfFile& found, const std::string& where,
                      Report& report);
 
-/// What stands for no data though the raster does not declare it, by a sample that is spread over all of it.
+/// Throws InputError where they are heights in another unit (plausibility::sign_of_another_unit).
+void require_metres(const std::string& file, std::span<const plausibility::StandIn> stand_ins,
+                    std::span<const std::optional<float>> left_m);
+
+/// What stands for no data though the raster does not declare it, by a sample that is spread over all of it. Throws as
+/// require_metres does.
 [[nodiscard]] std::vector<StandInOfFile> sampled_stand_ins(const PlacedRaster& raster, plausibility::HeightsOf of);
 
 /// Reports them, and has the raster read as if it had no data there: before it is resampled, which would mix them into their

@@ -121,7 +121,9 @@ ReadyRaster make_ready(const TerrainFile& file, const std::string& fallback_crs,
 void require_heights(TerrainRaster& terrain, const PlacedRaster& raster, HeightsOf of, const Crs& output, Point2d origin_m,
                      Report& report) {
   const std::size_t all = terrain.height_m.size();
-  for (const plausibility::StandIn& found : plausibility::take_out_stand_ins(terrain.height_m, of)) {
+  const auto stand_ins = plausibility::take_out_stand_ins(terrain.height_m, of);
+  require_metres(raster.path.string(), stand_ins, terrain.height_m);
+  for (const plausibility::StandIn& found : stand_ins) {
     if (raster.warped) continue;
     const Point2d place = terrain.node(found.first % terrain.columns, found.first / terrain.columns) + origin_m;
     report_stand_in(raster.path.string(), output, {raster.scale.number(found.height_m), place},

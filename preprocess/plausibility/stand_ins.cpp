@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plausibility/stand_ins.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -88,6 +90,26 @@ std::vector<StandIn> take_out_stand_ins(std::vector<std::optional<float>>& heigh
   for (const auto& [height, stand_in] : by_height) found.push_back(stand_in);
   std::stable_sort(found.begin(), found.end(), [](const StandIn& a, const StandIn& b) { return a.pixels > b.pixels; });
   return found;
+}
+
+std::optional<std::string> sign_of_another_unit(std::span<const StandIn> stand_ins, std::size_t left) {
+  constexpr std::size_t enough_different = 100;
+  if (stand_ins.size() < enough_different) return std::nullopt;
+  std::size_t pixels = 0;
+  for (const StandIn& s : stand_ins) pixels += s.pixels;
+  if (pixels <= left || 2 * stand_ins.front().pixels >= pixels) return std::nullopt;
+  const auto by_height = [](const StandIn& a, const StandIn& b) { return a.height_m < b.height_m; };
+  const auto [low, high] = std::minmax_element(stand_ins.begin(), stand_ins.end(), by_height);
+  const bool may_be_centimetres = may_be_elevation(high->height_m / 100.0),
+             may_be_millimetres = may_be_elevation(high->height_m / 1e3);
+  return fmt::format(
+      "{} of {} heights read from it are no elevations on land in metres: they are {} different numbers from {:g} to {:g}. {}",
+      pixels, pixels + left, stand_ins.size(), low->height_m, high->height_m,
+      may_be_centimetres   ? "Are they in centimetres, or millimetres? gdal_edit.py -scale 0.01 FILE says that they "
+                             "are centimetres, -scale 0.001 millimetres; or convert the file to metres"
+      : may_be_millimetres ? "Are they in millimetres? gdal_edit.py -scale 0.001 FILE says so; or convert the file "
+                             "to metres"
+                           : "Is it another quantity? Give a raster of heights in metres");
 }
 
 }  // namespace farlod::plausibility

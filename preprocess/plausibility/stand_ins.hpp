@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace farlod::plausibility {
@@ -29,5 +31,10 @@ struct StandIn {
 ///       and in 16 at least, and is apart from the others by 50 m (surfaces: 100 m), and by as much as they differ themselves;
 ///       these are 16 numbers at least. Ground has slopes, and the roof of a tower is not below the town
 [[nodiscard]] std::vector<StandIn> take_out_stand_ins(std::vector<std::optional<float>>& heights_m, HeightsOf of);
+
+/// Why stand-ins are heights in another unit, in words that go on behind the name of the file, with what to do: they are more
+/// than half of the pixels that have a number, of which `left` were kept, and a hundred different numbers, none of them half of
+/// all. No raster has as many numbers for no data. None where they may stand for it.
+[[nodiscard]] std::optional<std::string> sign_of_another_unit(std::span<const StandIn> stand_ins, std::size_t left);
 
 }  // namespace farlod::plausibility

@@ -148,6 +148,44 @@ TEST_F(DoubtfulTerrain, APictureIsNone) {
                "50\n0\n0\n-50\n" + std::to_string(town_middle.x - 475.0) + "\n" + std::to_string(town_middle.y + 475.0) + "\n");
   EXPECT_THAT(refusal("--terrain picture.ppm"), HasSubstr("is a picture of red, green and blue"));
 }
+/// Roofs at 112 m stood 112 m high on a ground of 100 m, without a word.
+TEST_F(DoubtfulTerrain, RoofElevationsTakenForHeightsAreTold) {
+  std::vector<Block> raised = small_town();
+  for (Block& b : raised) b.height_m += 100.0;
+  folder.write("roofs.geojson", footprints_geojson(raised));
+  folder.write("ground.asc", ascii_grid([](Point2d p) { return 100.0 + 0.01 * p.x; }));
+  const std::string arguments = " --terrain ground.asc -o a.farlod --force";
+  EXPECT_THAT(folder.run("farlod-pack town.geojson" + arguments).out, testing::Not(HasSubstr("208")));
+  const Outcome outcome = folder.run("farlod-pack roofs.geojson" + arguments);
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("elevations"));
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("--roof-field in place of --height-field"));
+}
+
+/// Crowns of 8 m were 28 to 58 m high, without a word.
+TEST_F(DoubtfulTerrain, ElevationsOfCrownsTakenForHeightsAreTold) {
+  const auto ground_m = [](Point2d p) { return 35.0 + 0.02 * p.x; };
+  folder.write("ground.asc", ascii_grid(ground_m));
+  const auto crowns = [&](double above_m) {
+    return ascii_grid([=](Point2d p) { return p.x > 0.0 ? above_m + 0.03 * p.x + 0.01 * p.y : 0.0; });
+  };
+  folder.write("heights.asc", crowns(8.0));
+  folder.write("elevations.asc", crowns(43.0));
+  const std::string pack = "farlod-pack town.geojson --terrain ground.asc -o a.farlod --force --canopy ";
+  EXPECT_THAT(folder.run(pack + "heights.asc").out, testing::Not(HasSubstr("208")));
+  EXPECT_THAT(folder.run(pack + "elevations.asc --canopy-absolute").out, testing::Not(HasSubstr("208")));
+  const Outcome outcome = folder.run(pack + "elevations.asc");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("elevations.asc: nearly all of its heights of crowns"));
+  EXPECT_THAT(outcome.out, HasSubstr("--canopy-absolute says so"));
+}
+
+/// Its heights were left out as numbers for no data, one problem each.
+TEST_F(DoubtfulTerrain, CentimetresAboveAllMountainsAreRefused) {
+  folder.write("ground.asc", ascii_grid([](Point2d p) { return 100.0 * (105.0 + 0.02 * p.x + 0.01 * p.y); }));
+  EXPECT_THAT(refusal("--terrain ground.asc"),
+              testing::AllOf(HasSubstr("ground.asc: "), HasSubstr("no elevations on land in metres"),
+                             HasSubstr("gdal_edit.py -scale 0.01 FILE says that they are centimetres")));
+}
 
 }  // namespace
 }  // namespace farlod::acceptance

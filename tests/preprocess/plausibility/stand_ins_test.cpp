@@ -94,5 +94,31 @@ TEST(StandIns, ComeMostFrequentFirstAndLeaveTheOthersAsTheyAre) {
   EXPECT_THAT(heights_m, ElementsAre(Optional(100.0F), std::nullopt, std::nullopt, std::nullopt, std::nullopt, Optional(101.5F)));
 }
 
+/// Whether what is taken out of these heights is another unit.
+std::string sign(Heights heights_m) {
+  const auto found = take_out_stand_ins(heights_m, HeightsOf::ground);
+  const auto left = std::count_if(heights_m.begin(), heights_m.end(), [](const auto& m) { return m.has_value(); });
+  return sign_of_another_unit(found, static_cast<std::size_t>(left)).value_or("");
+}
+
+Heights relief(float low, float step, std::size_t different) {
+  Heights heights_m;
+  for (std::size_t n = 0; n < 2000; ++n) heights_m.emplace_back(low + step * static_cast<float>(n % different));
+  return heights_m;
+}
+
+TEST(StandIns, AreNoneWhereTheyAreAReliefInAnotherUnit) {
+  using testing::HasSubstr;
+  EXPECT_THAT(sign(relief(9800.0F, 2.0F, 400)), testing::AllOf(HasSubstr("different numbers from 9852 to 10598"),
+                                                               HasSubstr("-scale 0.01"), HasSubstr("centimetres")));
+  EXPECT_THAT(sign(relief(2e6F, 10.0F, 400)), HasSubstr("Are they in millimetres?"));
+  EXPECT_THAT(sign(relief(-1e9F, 1000.0F, 400)), HasSubstr("another quantity"));
+  EXPECT_EQ(sign(relief(9990.0F, 1.0F, 50)), "") << "codes of no data";
+  EXPECT_EQ(sign(relief(9000.0F, 2.0F, 800)), "") << "most are heights";
+  Heights one = relief(-10'000.0F, 1.0F, 120);
+  one.insert(one.end(), 4000, -9999.0F);
+  EXPECT_EQ(sign(one), "") << "one number is most of them";
+}
+
 }  // namespace
 }  // namespace farlod::plausibility
