@@ -114,7 +114,8 @@ class MethodWithHorizons : public SkyMethod {
     if (!wanted.empty()) further.listen_to(engine);
     if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far);
     if (wanted.needs_view_factors())
-      further.find_view_factors(evaluation_.seen_from(cell), evaluation_.directions, evaluation_.settings.weight, evaluation_.stop);
+      further.find_view_factors(evaluation_.seen_from(cell), evaluation_.directions, evaluation_.settings.weight,
+                                evaluation_.stop);
     if (wanted.canopy_columns().count > 0 || (wanted.needs_dimmed_sky() && evaluation_.package.has_crowns()))
       further.draw_canopies(evaluation_.package, certainty_of_canopies(), canopy, evaluation_.stop);
   }
