@@ -45,13 +45,16 @@ py::dict columns_by_name(const std::vector<Form>& forms) {
   return columns;
 }
 
+template <class Form>
+void add_sky(const std::vector<CellSky>& skies, std::vector<Form>& forms) {
+  for (std::size_t n = 0; n < forms.size(); ++n) forms[n].sky = skies[n];
+}
+
 /// With the sky, if receivers have a spacing.
 std::vector<CellMorphology> cells_with_sky(const Package& package, std::optional<double> spacing_m,
                                            const EvaluationSettings& settings, const RunSettings& run) {
   std::vector<CellMorphology> cells = morphology_of_cells(package, run);
-  if (!spacing_m) return cells;
-  const std::vector<CellSky> skies = sky_of_cells(package, *spacing_m, settings, run);
-  for (std::size_t n = 0; n < cells.size(); ++n) cells[n].sky = skies[n];
+  if (spacing_m) add_sky(sky_of_cells(package, *spacing_m, settings, run), cells);
   return cells;
 }
 
@@ -92,9 +95,7 @@ py::dict zones_in_python(const Package& package, const std::vector<ZoneInPython>
   std::vector<UrbanForm> forms;
   run_interruptibly(caller, [&](const RunSettings& run) {
     forms = morphology_of_zones(package, zones, run);
-    if (!spacing_m) return;
-    const std::vector<CellSky> skies = sky_of_zones(package, zones, *spacing_m, settings, run);
-    for (std::size_t n = 0; n < forms.size(); ++n) forms[n].sky = skies[n];
+    if (spacing_m) add_sky(sky_of_zones(package, zones, *spacing_m, settings, run), forms);
   });
   return columns_by_name(forms);
 }

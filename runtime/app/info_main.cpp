@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/city_scenery.hpp"
@@ -99,6 +100,12 @@ void draw_city_of(const Package& package, const PackageFacts& facts, const InfoO
   write_drawing(draw_city(city_scenery(package, facts, options.report_file, run)), options.picture_file);
 }
 
+template <class Form>
+std::vector<Form> with_sky(std::vector<Form> forms, const std::vector<CellSky>& skies) {
+  for (std::size_t n = 0; n < forms.size(); ++n) forms[n].sky = skies[n];
+  return forms;
+}
+
 std::vector<CellMorphology> morphology_of(const Package& package, const InfoOptions& options) {
   ProgressLine progress("cells", options.run.verbosity);
   RunSettings run;
@@ -106,9 +113,7 @@ std::vector<CellMorphology> morphology_of(const Package& package, const InfoOpti
   run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
   std::vector<CellMorphology> cells = morphology_of_cells(package, run);
   if (!options.sky_spacing_m) return cells;
-  const std::vector<CellSky> skies = sky_of_cells(package, *options.sky_spacing_m, {}, run);
-  for (std::size_t n = 0; n < cells.size(); ++n) cells[n].sky = skies[n];
-  return cells;
+  return with_sky(std::move(cells), sky_of_cells(package, *options.sky_spacing_m, {}, run));
 }
 
 RequestedZones zones_in(const InfoOptions& options, const PackageDescription& city) {
@@ -137,9 +142,7 @@ std::vector<UrbanForm> forms_of(const Package& package, const RequestedZones& re
   }
   std::vector<UrbanForm> forms = morphology_of_zones(package, zones, run);
   if (!options.sky_spacing_m) return forms;
-  const std::vector<CellSky> skies = sky_of_zones(package, zones, *options.sky_spacing_m, {}, run);
-  for (std::size_t n = 0; n < forms.size(); ++n) forms[n].sky = skies[n];
-  return forms;
+  return with_sky(std::move(forms), sky_of_zones(package, zones, *options.sky_spacing_m, {}, run));
 }
 
 /// The options that values depend on.

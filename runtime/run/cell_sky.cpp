@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +19,7 @@
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
 #include "run/surface_averages.hpp"
+#include "run/zones_of_grid.hpp"
 
 namespace farlod {
 namespace {
@@ -80,53 +80,6 @@ void evaluate_all(const Package& package, const Box2d& part, double spacing_m, c
 
 std::uint64_t bytes_of_means(std::size_t count) { return count * (sizeof(SkySums) + sizeof(CellSky)); }
 
-/// The zones at a place, found by the cell of the grid that it lies in.
-class ZonesAtPlaces {
- public:
-  ZonesAtPlaces(const package::Manifest& manifest, const std::vector<Zone>& zones) : manifest_(manifest) {
-    for (const Zone& zone : zones) {
-      const Box2d& box = regions_.emplace_back(zone).outline();
-      outline_.add(box.low);
-      outline_.add(box.high);
-    }
-    const Grid& grid = manifest.grid;
-    for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
-      const Box2d cell = projected_box(grid.corner_of(grid.cells.cell_at(n)), grid.cell_edge_m);
-      std::vector<std::size_t>& here = of_cells_.emplace_back();
-      for (std::size_t zone = 0; zone < regions_.size(); ++zone)
-        if (meet(regions_[zone].outline(), cell)) here.push_back(zone);
-    }
-  }
-  /// The rectangle around all of them.
-  [[nodiscard]] const Box2d& outline() const { return outline_; }
-  /// Calls f(zone) for each.
-  template <class F>
-  void visit(Point2d p, const F& f) const {
-    const Cell cell = manifest_.grid.cell_of(manifest_.grid_from_projected(p));
-    if (!manifest_.grid.cells.contains(cell)) return;
-    for (const std::size_t zone : of_cells_[manifest_.grid.cells.index_of(cell)])
-      if (regions_[zone].contains(p)) f(zone);
-  }
-
- private:
-  [[nodiscard]] Box2d projected_box(Point2d corner_grid, double edge_m) const {
-    Box2d box;
-    for (const Point2d step : {Point2d{0.0, 0.0}, Point2d{edge_m, 0.0}, Point2d{0.0, edge_m}, Point2d{edge_m, edge_m}}) {
-      const Point2d corner = corner_grid + step;
-      box.add(horizontal(manifest_.projected_from_grid({corner.x, corner.y, 0.0})));
-    }
-    return box;
-  }
-  static bool meet(const Box2d& a, const Box2d& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-  }
-
-  const package::Manifest& manifest_;
-  std::vector<Region> regions_;
-  Box2d outline_;
-  std::vector<std::vector<std::size_t>> of_cells_;
-};
-
 /// Behind a wall, where its building is: receivers stand 1 cm in front of it.
 Point2d behind(const SurfacePoint& point, Angle convergence) {
   constexpr double depth_m = 0.02;
@@ -134,10 +87,6 @@ Point2d behind(const SurfacePoint& point, Angle convergence) {
   if (point.kind != SurfaceKind::wall) return p;
   const Angle azimuth = point.azimuth - convergence;
   return p - depth_m * Point2d{sin(azimuth), cos(azimuth)};
-}
-
-Box2d both(const Box2d& a, const Box2d& b) {
-  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}, {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
 }
 
 }  // namespace
@@ -166,22 +115,24 @@ std::vector<CellSky> sky_of_zones(const Package& package, const std::vector<Zone
   if (settings.region) throw InvalidArgument("zones say what is evaluated: leave region out");
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
-  const ZonesAtPlaces places(manifest, zones);
+  const ZonesOfGrid places(manifest, zones);
   std::vector<SkySums> sums(zones.size());
-  // Walls stand off the zones that they belong to
+  if (zones.empty()) return {};
+  // Walls may stand off the cells that they belong to
   constexpr double margin_m = 1.0;
-  const Box2d near = both(grown(places.outline(), margin_m), package.description().outline_projected);
-  if (near.empty()) return means_of(sums);
+  const Box2d near = grown(places.outline_projected(), margin_m);
   EvaluationSettings of_zones = settings;
   of_zones.region = std::make_shared<const Region>(
       std::vector<Region::Ring>{{near.low, {near.high.x, near.low.y}, near.high, {near.low.x, near.high.y}}});
   evaluate_all(
       package, near, spacing_m, of_zones, with_bytes_of_caller(run, bytes_of_means(sums.size())),
       [&](Point2d centre, double svf) {
-        places.visit(centre, [&](std::size_t zone) { sums[zone].ground.add(svf, spacing_m * spacing_m); });
+        places.visit(manifest.grid_from_projected(centre),
+                     [&](std::size_t zone) { sums[zone].ground.add(svf, spacing_m * spacing_m); });
       },
       [&](std::size_t, const SurfacePoint& point) {
-        places.visit(behind(point, manifest.convergence), [&](std::size_t zone) { add(point, sums[zone]); });
+        places.visit(manifest.grid_from_projected(behind(point, manifest.convergence)),
+                     [&](std::size_t zone) { add(point, sums[zone]); });
       });
   return means_of(sums);
 }

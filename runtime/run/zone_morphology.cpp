@@ -1,16 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <map>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/run_settings.hpp"
-#include "farlod/error.hpp"
 #include "farlod/morphology.hpp"
 #include "run/cell_amounts.hpp"
 #include "run/cell_crowns.hpp"
@@ -20,87 +15,16 @@
 #include "run/morphology_of_package.hpp"
 #include "run/package_contents.hpp"
 #include "run/zone_plan.hpp"
+#include "run/zones_of_grid.hpp"
 
 namespace farlod {
 namespace {
-
-/// The zones that a cell meets, by their numbers, and where: grid frame.
-using ZonesInCell = std::map<std::size_t, std::vector<ZoneTrapezoid>>;
 
 /// What a cell has of a zone.
 struct ZoneInCell {
   std::size_t zone = 0;
   CellForm form;
   std::optional<CellVegetation> vegetation;
-};
-
-Zone in_grid_frame(const Zone& zone, const package::Manifest& m) {
-  Zone rings = zone;
-  for (auto& ring : rings)
-    for (Point2d& p : ring) {
-      require_coordinate("a coordinate of a zone", p.x);
-      require_coordinate("a coordinate of a zone", p.y);
-      p = m.grid_from_projected(p);
-    }
-  return rings;
-}
-
-double area_of_zone(const std::vector<ZoneTrapezoid>& trapezoids, std::size_t number) {
-  double area_m2 = 0.0;
-  for (const ZoneTrapezoid& t : trapezoids) area_m2 += t.area_m2();
-  if (area_m2 > 0.0) return area_m2;
-  throw InvalidArgument("zone " + std::to_string(number) + " (counted from 0) has no area: give polygons, or leave it out");
-}
-
-[[noreturn]] void throw_beyond(const std::vector<Zone>& zones, const package::Manifest& m) {
-  Box2d box;
-  for (const Zone& zone : zones)
-    for (const auto& ring : zone)
-      for (const Point2d p : ring) box.add(p);
-  const Box2d city = m.projected_outline(m.grid.rectangle());
-  const auto text = [](Point2d p) { return std::to_string(std::llround(p.x)) + ", " + std::to_string(std::llround(p.y)); };
-  throw InvalidArgument("none of " + std::to_string(zones.size()) + " zones lies in the city: they lie from " + text(box.low) +
-                        " to " + text(box.high) + ", and the grid of the city from " + text(city.low) + " to " + text(city.high) +
-                        ". Give zones of this city, or check whether they are in another CRS");
-}
-
-/// Where zones lie, cell by cell.
-class ZonesOfGrid {
- public:
-  ZonesOfGrid(const package::Manifest& m, const std::vector<Zone>& zones) : grid_(m.grid) {
-    for (std::size_t n = 0; n < zones.size(); ++n) {
-      const std::vector<ZoneTrapezoid> trapezoids = trapezoids_of(in_grid_frame(zones[n], m));
-      plan_areas_m2_.push_back(area_of_zone(trapezoids, n));
-      is_met_.push_back(false);
-      for (const ZoneTrapezoid& t : trapezoids) add(n, t);
-    }
-    cells_.insert(cells_.end(), by_cell_.begin(), by_cell_.end());
-    if (!zones.empty() && cells_.empty()) throw_beyond(zones, m);
-  }
-  /// None of one that lies beyond the grid.
-  [[nodiscard]] double plan_area_m2(std::size_t zone) const { return is_met_[zone] ? plan_areas_m2_[zone] : 0.0; }
-  /// Those that zones meet, by their places in the grid.
-  [[nodiscard]] const std::vector<std::pair<std::size_t, ZonesInCell>>& cells() const { return cells_; }
-
- private:
-  void add(std::size_t zone, const ZoneTrapezoid& t) {
-    // A wall on its border may be of the next cell
-    constexpr double margin_m = 0.001;
-    const Box2d box = t.outline();
-    const Point2d margin{margin_m, margin_m}, low = box.low - margin, high = box.high + margin;
-    const auto number = [&](double x) { return static_cast<std::int32_t>(std::floor(x / grid_.cell_edge_m)); };
-    const CellRange all =
-        CellRange{number(low.x), number(low.y), number(high.x) + 1, number(high.y) + 1}.intersection(grid_.cells);
-    for (std::int32_t j = all.j_begin; j < all.j_end; ++j)
-      for (std::int32_t i = all.i_begin; i < all.i_end; ++i)
-        by_cell_[grid_.cells.index_of({i, j})][zone].push_back(t.moved_to(grid_.corner_of({i, j})));
-    if (all.size() > 0) is_met_[zone] = true;
-  }
-  const Grid& grid_;
-  std::vector<double> plan_areas_m2_;
-  std::vector<bool> is_met_;
-  std::map<std::size_t, ZonesInCell> by_cell_;
-  std::vector<std::pair<std::size_t, ZonesInCell>> cells_;
 };
 
 std::vector<ZoneInCell> zones_in(const PackageReader& reader, Cell cell, const ZonesInCell& zones, const WindDirections& winds) {
