@@ -104,45 +104,6 @@ namespace {
 /// Enough to know a file by.
 constexpr std::size_t most_footprints = 10'000;
 
-/// The footprints of a file, and how many heights there are among them.
-struct FootprintsOfFile {
-  std::vector<SaidHeight> heights;
-  std::set<double> different_m;
-
-  void add(std::span<const Point3d> points, const KnownGroundHeightAt& ground_height) {
-    if (heights.size() == most_footprints) return;
-    Box2d box;
-    SaidHeight said;
-    for (const Point3d& p : points) {
-      box.add(horizontal(p));
-      said.height_m = std::max(said.height_m, p.z);
-    }
-    said.plan_m2 = (box.high.x - box.low.x) * (box.high.y - box.low.y);
-    said.ground_m = ground_height(0.5 * (box.low + box.high));
-    different_m.insert(said.height_m);
-    heights.push_back(said);
-  }
-  [[nodiscard]] bool are_measured() const { return 2 * different_m.size() > heights.size(); }
-};
-
-}  // namespace
-
-void require_heights_above_ground(const LocatedCity& located, const KnownGroundHeightAt& ground_height) {
-  std::vector<FootprintsOfFile> files(std::max<std::size_t>(located.sources.size(), 1));
-  const CityModel& city = located.city;
-  city.for_each_building([&](std::size_t, const Building& b) {
-    if (b.height_reference == HeightReference::on_ground && b.foot == Foot::on_ground)
-      files[b.source].add(city.points_of(b), ground_height);
-  });
-  for (std::size_t n = 0; n < files.size(); ++n)
-    if (files[n].heights.size() >= enough_houses && files[n].are_measured() && are_houses(files[n].heights))
-      throw InputError((n < located.sources.size() ? located.sources[n] + ": " : "") +
-                       "its heights are elevations: each is for nearly all buildings that of a house on the ground of the "
-                       "terrain. Name their field with --roof-field in place of --height-field.");
-}
-
-namespace {
-
 double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -163,25 +124,50 @@ bool have_a_default(std::span<const HeightOnGround> heights) {
   return false;
 }
 
-/// The footprints of a file that are raised from known ground.
-struct RaisedFootprints {
-  std::vector<HeightOnGround> heights;
+/// The footprints of a file, and how many heights there are among them.
+struct FootprintsOfFile {
+  std::vector<SaidHeight> heights;
+  std::set<double> different_m;
   Point3d highest;
 
   void add(std::span<const Point3d> points, const SurveyedGround& ground) {
+    if (heights.size() == most_footprints) return;
     Box2d box;
-    double height_m = 0.0;
+    SaidHeight said;
     for (const Point3d& p : points) {
       box.add(horizontal(p));
-      height_m = std::max(height_m, p.z);
+      said.height_m = std::max(said.height_m, p.z);
     }
     const Point2d middle = 0.5 * (box.low + box.high);
-    const auto ground_m = box.empty() || !ground.extent_city.contains(middle) ? std::nullopt : ground.height_at(middle);
-    if (!ground_m) return;
-    if (heights.empty() || height_m > highest.z) highest = {middle.x, middle.y, height_m};
-    heights.push_back({height_m, *ground_m});
+    said.plan_m2 = (box.high.x - box.low.x) * (box.high.y - box.low.y);
+    if (ground.extent_city.contains(middle)) said.ground_m = ground.height_at(middle);
+    if (heights.empty() || said.height_m > highest.z) highest = {middle.x, middle.y, said.height_m};
+    different_m.insert(said.height_m);
+    heights.push_back(said);
+  }
+  [[nodiscard]] bool are_measured() const { return 2 * different_m.size() > heights.size(); }
+  [[nodiscard]] std::vector<HeightOnGround> on_ground() const {
+    std::vector<HeightOnGround> known;
+    for (const SaidHeight& h : heights)
+      if (h.ground_m) known.push_back({h.height_m, *h.ground_m});
+    return known;
   }
 };
+
+void require_no_elevations(const FootprintsOfFile& file, const std::string& source) {
+  if (file.heights.size() < enough_houses || !file.are_measured() || !are_houses(file.heights)) return;
+  throw InputError((source.empty() ? "" : source + ": ") +
+                   "its heights are elevations: each is for nearly all buildings that of a house on the ground of the "
+                   "terrain. Name their field with --roof-field in place of --height-field.");
+}
+
+std::string detail_of(const LikelyElevations& found, std::size_t count) {
+  return fmt::format(
+      "nearly all of its {} heights, typically {:.1f} m, are larger than the elevation of their ground, typically {:.1f} m, as "
+      "those of no town with low buildings are: are they elevations of roofs, typically {:.1f} m above the ground? Name their "
+      "field with --roof-field in place of --height-field",
+      count, found.height_m, found.ground_m, found.above_m);
+}
 
 }  // namespace
 
@@ -199,8 +185,8 @@ std::optional<LikelyElevations> likely_elevations(std::span<const HeightOnGround
   return are_likely ? std::optional(found) : std::nullopt;
 }
 
-void report_heights_like_elevations(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
-  std::vector<RaisedFootprints> files(std::max<std::size_t>(located.sources.size(), 1));
+void report_heights_above_ground(const LocatedCity& located, const SurveyedGround& ground, Report& report) {
+  std::vector<FootprintsOfFile> files(std::max<std::size_t>(located.sources.size(), 1));
   const CityModel& city = located.city;
   city.for_each_building([&](std::size_t, const Building& b) {
     if (b.height_reference == HeightReference::on_ground && b.foot == Foot::on_ground)
@@ -208,14 +194,12 @@ void report_heights_like_elevations(const LocatedCity& located, const SurveyedGr
   });
   const Point2d origin_m = located.georeference.origin_m;
   for (std::size_t n = 0; n < files.size(); ++n) {
-    const auto found = likely_elevations(files[n].heights);
-    if (!found) continue;
-    report.add({ProblemCode::implausible_size, n < located.sources.size() ? located.sources[n] : "", "the whole file",
-                fmt::format("nearly all of its {} heights, typically {:.1f} m, are larger than the elevation of their ground, "
-                            "typically {:.1f} m, as those of no town with low buildings are: are they elevations of roofs, "
-                            "typically {:.1f} m above the ground? Name their field with --roof-field in place of --height-field",
-                            files[n].heights.size(), found->height_m, found->ground_m, found->above_m),
-                files[n].highest + Point3d{origin_m.x, origin_m.y, 0.0}});
+    const std::string source = n < located.sources.size() ? located.sources[n] : "";
+    require_no_elevations(files[n], source);
+    const std::vector<HeightOnGround> heights = files[n].on_ground();
+    if (const auto found = likely_elevations(heights))
+      report.add({ProblemCode::implausible_size, source, "the whole file", detail_of(*found, heights.size()),
+                  files[n].highest + Point3d{origin_m.x, origin_m.y, 0.0}});
   }
 }
 

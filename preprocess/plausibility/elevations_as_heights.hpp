@@ -32,10 +32,6 @@ struct SaidHeight {
 /// Throws InputError where the heights of a field of a file are elevations.
 void require_heights(const std::string& source, const std::string& field, std::span<const SaidHeight> heights);
 
-/// Rule (4) for the footprints of a city that are raised from its ground. Where most have the height of another one, it follows
-/// from storeys or from a default. Throws InputError.
-void require_heights_above_ground(const LocatedCity& located, const KnownGroundHeightAt& ground_height);
-
 /// What is said to be a height, and the elevation of the ground there.
 struct HeightOnGround {
   double height_m = 0.0, ground_m = 0.0;
@@ -51,7 +47,10 @@ struct LikelyElevations {
 /// nothing: they are a default.
 [[nodiscard]] std::optional<LikelyElevations> likely_elevations(std::span<const HeightOnGround> heights);
 
-/// Reports implausible_size for each file whose footprints on the ground have likely_elevations for heights.
-void report_heights_like_elevations(const LocatedCity& located, const SurveyedGround& ground, Report& report);
+/// The heights of footprints that are raised from the ground, file by file:
+///   (1) throws InputError by rule (4) of sign_of_elevations, but where most have the height of another one: that follows from
+///       storeys or from a default
+///   (2) implausible_size where they are likely_elevations, of buildings of any size
+void report_heights_above_ground(const LocatedCity& located, const SurveyedGround& ground, Report& report);
 
 }  // namespace farlod::plausibility

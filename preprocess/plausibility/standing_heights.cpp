@@ -266,8 +266,7 @@ bool is_in_another_unit(const LocatedCity& located, const SurveyedGround& ground
   if (report_unit_of_terrain(below, located, ground, report)) return true;
   require_ground_without_roofs(located, ground);
   if (report_steep_terrain(below, located, ground, report)) return true;
-  require_heights_above_ground(located, ground.height_at);
-  report_heights_like_elevations(located, ground, report);
+  report_heights_above_ground(located, ground, report);
   report_roofs(located, ground, report);
   return false;
 }

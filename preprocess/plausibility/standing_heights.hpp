@@ -41,10 +41,9 @@ struct SurveyedGround {
 ///       height: a fifth of those of the file, and at least four of at least eight.
 ///   (2) beyond_terrain: buildings whose middle is outside of the extent of the survey. Reported once for each file.
 /// Throws InputError when what is told in (1) holds for most of the city, and no town can stand so: its roofs are below the
-/// ground, or its floors 10 m above it; when heights of footprints are elevations (require_heights_above_ground); and when the
-/// ground has roofs in it (require_ground_without_roofs). Roofs without bases are compared, too (report_roofs), and
-/// heights of footprints (report_heights_like_elevations). Of ground in another unit (report_unit_of_terrain,
-/// report_steep_terrain), nothing but (2) is told.
+/// ground, or its floors 10 m above it; and when the ground has roofs in it (require_ground_without_roofs). Roofs without bases
+/// are compared, too (report_roofs), and heights of footprints (report_heights_above_ground). Of ground in another unit
+/// (report_unit_of_terrain, report_steep_terrain), nothing but (2) is told.
 void report_standing(const LocatedCity& located, const SurveyedGround& ground, Report& report);
 
 }  // namespace farlod::plausibility
