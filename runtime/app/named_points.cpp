@@ -218,8 +218,7 @@ void rename_attribute(std::size_t k, const std::vector<std::string>& own, NamedP
   std::string free = name + "_input";
   while (has_column(own, free) || has_column(named.attributes.names(), free)) free += "_input";
   named.attributes.rename(k, free);
-  named.notes.push_back("The field \"" + name + "\" of the points comes back as \"" + free +
-                        "\": a column of the output has its name.");
+  named.notes.push_back("The field \"" + name + "\" of the points comes back as \"" + free + "\": another column has its name.");
 }
 
 }  // namespace
