@@ -135,7 +135,7 @@ struct Quantities {
   /// `share_building`. Takes the rays of svfaveg.
   bool sky_shares = false;
   CanopySettings canopy = {};
-  /// What hides each of the 153 patches of the sky that SOLWEIG of UMEP knows, as bits, which farlod/shadow_patches.hpp tells how
+  /// What hides each of the 153 patches of the sky that SOLWEIG of UMEP knows, as bits, which the header shadow_patches tells how
   /// to read. Columns `shadow_1` to `shadow_7`, `vegshadow_1` …, `vbshadow_1` …. Takes rays against the whole city, with its
   /// trees, whatever the engine and the receiver's normal.
   bool shadow_patches = false;

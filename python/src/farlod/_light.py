@@ -64,8 +64,6 @@ class Light:
         Of all intervals.
     global_horizontal : float
         What falls on a level plane in the open, in kWh/m².
-    sun : three numpy.ndarray of float64, (k,)
-        Azimuths and elevations of the sun in degrees, and the hours that each position stands for.
 
     Examples
     --------
@@ -140,7 +138,7 @@ class Light:
 
     @property
     def sun(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Where the sun is, as :meth:`City.sunlit` takes it."""
+        """Where the sun is, as :meth:`City.sunlit` takes it: azimuths and elevations in degrees, and hours of each."""
         _, azimuth, elevation, hours = self._suns
         return azimuth, elevation, hours
 
