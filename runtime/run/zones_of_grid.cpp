@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "run/package_contents.hpp"
 
