@@ -180,24 +180,29 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
 
 FARLOD_LANES Places places_of(const ReceiverPacket& r) { return {load(r.x.data()), load(r.y.data()), load(r.z.data())}; }
 
+/// The batch before which minima are found, and after how many more for the second time: for each Culling.
+struct Renewal {
+  std::size_t first, apart;
+};
+constexpr Renewal renewals[] = {{0, 2}, {0, 12}, {8, 8}};
+
 template <class Horizon>
 FARLOD_LANES void raise_horizon(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
                                 const AzimuthView& azimuths, Culling culling, const Horizon& drawn) {
   const Places places = places_of(receivers);
   const bool is_upper = edges.role != EdgeRole::underside;
   const float* const slopes = drawn.slopes;
-  // Edges come from near to far, and the nearest hide the most: minima are renewed after 2, 4, 8 … more batches. Minima that are
-  // out of date are too low, and let more edges be drawn, never fewer
+  // Minima are renewed after more and more batches. Those that are out of date are too low, and let more edges be drawn, never
+  // fewer
   SectorMinHorizon min_horizon;
-  constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
-  std::size_t next_update = culling == Culling::none ? never : 0, batches_apart = culling == Culling::renewed ? 2 : never;
-  for (std::size_t n = 0; n < edges.batches.size(); ++n) {
-    if (n >= next_update) {
+  const Renewal& renewal = renewals[static_cast<std::size_t>(culling)];
+  for (std::size_t n = 0, next = renewal.first, apart = renewal.apart; n < edges.batches.size(); ++n) {
+    if (n == next) {
       find_sector_minima({&slopes, 1}, azimuths, SectorAzimuths::inside, min_horizon);
-      next_update = n + batches_apart;
-      batches_apart *= 2;
+      next += apart;
+      apart *= 2;
     }
-    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, culling == Culling::none ? nullptr : &min_horizon, drawn);
+    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, n < renewal.first ? nullptr : &min_horizon, drawn);
   }
 }
 

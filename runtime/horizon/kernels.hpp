@@ -25,11 +25,12 @@ struct EdgeBatches {
   EdgeRole role;
 };
 
-/// When the lowest slopes of horizons are found, against which edges are culled. The horizons that are drawn do not depend on it.
+/// What is known of the edges that a horizon is raised to, from near to far: when its lowest slopes are found, against which
+/// edges are culled, and how soon again. The horizons that are drawn do not depend on it.
 enum class Culling : std::uint8_t {
-  none,    ///< never: most of the edges are seen
-  once,    ///< before the first edge: most of the horizons is drawn already
-  renewed  ///< again and again: edges come from near to far
+  nothing_drawn,  ///< before the first edge, and soon again: the nearest hide the most
+  mostly_drawn,   ///< before the first edge: the horizon is most of what it will be
+  mostly_seen     ///< after some edges: most of them are seen
 };
 
 /// Where an edge may rise above a horizon: at the azimuths; or also between two, above the lower one of both horizons.

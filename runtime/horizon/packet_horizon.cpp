@@ -140,17 +140,17 @@ void PacketGroup::raise(const SilhouetteEdges& edges, std::span<const ReceiverPa
   for (const ReceiverPacket& packet : packets) bounds_.push_back(bounds_of(packet));
   // The packet in the middle goes first: most of what it sees in the end, the others see too
   const std::size_t middle = packets.size() / 2;
-  horizons[middle].raise(edges, packets[middle], bounds_[middle], Culling::renewed);
+  horizons[middle].raise(edges, packets[middle], bounds_[middle], Culling::nothing_drawn);
   find_raising(edges, bounds_[middle], horizons.subspan(middle, 1), RaisingAt::azimuths, first_);
   drawn_.assign(edges, first_);
   for (std::size_t n = 0; n < packets.size(); ++n)
-    if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::none);
+    if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::mostly_seen);
   // Then those of the other edges that may rise above some of the horizons that this gave
   find_raising(edges, joined(bounds_), horizons, RaisingAt::azimuths, others_);
   for (std::size_t batch = 0; batch < others_.size(); ++batch) others_[batch] &= static_cast<std::uint16_t>(~first_[batch]);
   drawn_.assign(edges, others_);
   for (std::size_t n = 0; n < packets.size(); ++n)
-    if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::once);
+    if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::mostly_drawn);
 }
 
 void PacketGroup::keep_raising(const SilhouetteEdges& edges, std::span<const ReceiverPacket> packets,

@@ -36,7 +36,7 @@ class PacketHorizon {
   /// Raises each receiver's horizon to the edges that it sees. Fastest if edges come from near to far, since edges below the
   /// horizons of all receivers are culled.
   void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers) {
-    raise(edges, receivers, bounds_of(receivers), Culling::renewed);
+    raise(edges, receivers, bounds_of(receivers), Culling::nothing_drawn);
   }
   /// The same, with the bounds of these receivers.
   void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds, Culling culling);

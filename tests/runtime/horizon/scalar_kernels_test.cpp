@@ -105,8 +105,8 @@ TEST_P(ScalarKernels, HorizonsRaisedToEdges) {
         edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), culling,
                               data(raised_slopes), edge_numbers);
       };
-      raise(Culling::renewed, slopes, numbers.front().data());
-      for (const Culling culling : {Culling::none, Culling::once, Culling::renewed}) {
+      raise(Culling::nothing_drawn, slopes, numbers.front().data());
+      for (const Culling culling : {Culling::mostly_seen, Culling::mostly_drawn, Culling::nothing_drawn}) {
         unnumbered.assign(azimuths_.size(), {});
         raise(culling, unnumbered, nullptr);
         EXPECT_EQ(unnumbered, slopes);
