@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "georeference/place_on_earth.hpp"
+#include "plausibility/right_angles.hpp"
 
 namespace farlod::georeference {
 
@@ -83,14 +84,19 @@ std::string explanation(const Crs& crs, Point2d p_map, std::optional<double> bui
   return "is it the right CRS? --crs EPSG:n names another";
 }
 
+/// "57.59° N, 9.10° E".
+std::string degrees_text(Point2d lon_lat_deg) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << std::abs(lon_lat_deg.y) << (lon_lat_deg.y < 0.0 ? "° S, " : "° N, ")
+       << std::abs(lon_lat_deg.x) << (lon_lat_deg.x < 0.0 ? "° W" : "° E");
+  return text.str();
+}
+
 /// " (57.59° N, 9.10° E)" for a place of a map.
 std::string in_degrees(const Crs& crs, Point2d p_map) {
   const auto place = crs.is_projected() ? crs.lon_lat_deg(p_map) : std::nullopt;
   if (!place || std::abs(place->x) > 180.0 || std::abs(place->y) > 90.0) return "";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << " (" << std::abs(place->y) << (place->y < 0.0 ? "° S, " : "° N, ")
-       << std::abs(place->x) << (place->x < 0.0 ? "° W)" : "° E)");
-  return text.str();
+  return " (" + degrees_text(*place) + ")";
 }
 
 /// "SWEREF99 TM (Sweden)".
@@ -124,6 +130,22 @@ std::optional<std::string> doubt_beside_own(const Crs& given, Point2d p_given, c
   text << "the file lies at " << p_given.x << ", " << p_given.y << in_degrees(given, p_given) << ", where " << with_country(given)
        << " is not meant to be used, and its own CRS, " << with_country(own) << ", is meant for its place"
        << in_degrees(own, p_own) << ": leave --crs out, and give the CRS that the package is to have with --out-crs";
+  return text.str();
+}
+
+std::optional<std::string> doubt_about_order(const SourceCity& source, Point2d lon_lat_deg, bool latitude_first) {
+  constexpr double pole_deg = 90.0;
+  if (std::abs(lon_lat_deg.x) >= pole_deg) return std::nullopt;
+  const plausibility::RightAngles angles = plausibility::right_angles_of(source.city);
+  if (!angles.speak_for_exchange()) return std::nullopt;
+  std::ostringstream text;
+  text << "the file lies at " << degrees_text(lon_lat_deg) << ", where " << angles.as_read << " of " << angles.corners
+       << " corners of its buildings are right angles; at " << degrees_text({lon_lat_deg.y, lon_lat_deg.x}) << " "
+       << angles.exchanged << " are: its latitudes and longitudes are exchanged; ";
+  if (source.crs.longitude_first)
+    text << "ogr2ogr -ct \"+proj=axisswap +order=2,1\" NEW FILE exchanges them back";
+  else
+    text << (latitude_first ? "--crs OGC:CRS84 reads the longitude first" : "--crs EPSG:4326 reads the latitude first");
   return text.str();
 }
 

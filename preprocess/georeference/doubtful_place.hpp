@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "city/city_model.hpp"
 #include "farlod/point.hpp"
 #include "georeference/crs.hpp"
 
@@ -26,5 +27,9 @@ namespace farlod::georeference {
 /// The same where --crs overrules the CRS that a file names: it may have been given for the one that a package is to have. Empty
 /// unless the file lies elsewhere by the two, within the area of its own and, be it a little, outside of the area of --crs.
 [[nodiscard]] std::optional<std::string> doubt_beside_own(const Crs& given, Point2d p_given, const Crs& own, Point2d p_own);
+
+/// The same where the corners of outlines are right angles only with longitude and latitude exchanged
+/// (plausibility::RightAngles). `source` has longitude, latitude; `latitude_first`: its file has them in the other order.
+[[nodiscard]] std::optional<std::string> doubt_about_order(const SourceCity& source, Point2d lon_lat_deg, bool latitude_first);
 
 }  // namespace farlod::georeference

@@ -248,15 +248,17 @@ InputCrs resolved_crs(const InputCrs& input, const TypicalPlace& typical) {
   return {input.own->named, input.problem, input.own->detail};
 }
 
-/// By the place alone, else by that in the CRS of the file that --crs overruled.
+/// By the place alone, else by the angles of its buildings, else by its place in the CRS of the file that --crs overruled.
 std::optional<std::string> doubt_about(const InputCrs& input, Point2d place, const TypicalPlace& typical,
-                                       const SourceCity& source) {
+                                       const SourceCity& source, const FileAxes& axes) {
   const Crs& crs = input.named.crs;
   if (auto doubt = doubt_about_place(crs, place, typical.building_extent)) return doubt;
+  if (crs.is_in_degrees_from_greenwich())
+    if (auto doubt = doubt_about_order(source, place, axes.order == AxisOrder::northing_first)) return doubt;
   if (!input.own) return std::nullopt;
   const NamedCrs& own = input.own->named;
-  const FileAxes axes = find_axes(horizontal(typical.place), own.crs, source.crs.longitude_first || own.longitude_first);
-  return doubt_beside_own(crs, place, own.crs, horizontal(axes.p_map(typical.place)));
+  const FileAxes own_axes = find_axes(horizontal(typical.place), own.crs, source.crs.longitude_first || own.longitude_first);
+  return doubt_beside_own(crs, place, own.crs, horizontal(own_axes.p_map(typical.place)));
 }
 
 }  // namespace
@@ -274,8 +276,8 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   if (is_swapped(axes, crs, longitude_first)) of_file.add(ProblemCode::axes_swapped, detail_of_swap(axes, crs, typical.place));
   if (axes.before_easting != 0.0) of_file.add(ProblemCode::zone_in_easting, detail_of_zone(axes, crs, typical.place));
   const Point2d place = horizontal(axes.p_map(typical.place));
-  if (const auto doubt = doubt_about(input, place, typical, source)) of_file.add(ProblemCode::unlikely_place, *doubt);
   if (axes != FileAxes{}) normalize_points(source, axes);
+  if (const auto doubt = doubt_about(input, place, typical, source, axes)) of_file.add(ProblemCode::unlikely_place, *doubt);
   return {std::move(source), crs, place, axes};
 }
 

@@ -100,6 +100,52 @@ TEST(AxesSwapped, IsNotSaidOfAPlaceJustBeyondTheArea) {
   EXPECT_EQ(anatolia.located.georeference.epsg, 25837);
 }
 
+/// Houses of 10 m in a row at 51.92° N, 4.47° E, turned by 30°, with the first number as x.
+SourceCity rotterdam_with(const std::string& crs, bool latitude_first) {
+  SourceCity source;
+  source.source = "town.gml";
+  source.crs.definition = crs;
+  const auto place = [&](double along_m, double across_m) {
+    constexpr double lon_per_m = 1.0 / (metres_in_a_degree * 0.6168), lat_per_m = 1.0 / metres_in_a_degree;
+    const double lon = 4.47 + (0.866 * along_m - 0.5 * across_m) * lon_per_m,
+                 lat = 51.92 + (0.5 * along_m + 0.866 * across_m) * lat_per_m;
+    return latitude_first ? Point3d{lat, lon, 3.0} : Point3d{lon, lat, 3.0};
+  };
+  for (int n = 0; n < 20; ++n) {
+    const double x = 15.0 * n;
+    add_building(source.city, "house " + std::to_string(n),
+                 {place(x, 0.0), place(x + 10.0, 0.0), place(x + 10.0, 10.0), place(x, 10.0)});
+  }
+  return source;
+}
+
+TEST(LatitudesAndLongitudes, AreToldWhereOnlyTheOthersMakeRightAngles) {
+  SourceCity geojson = rotterdam_with("OGC:CRS84", true);
+  geojson.crs.longitude_first = true;
+  const Georeferencing in_the_sea = run({std::move(geojson)});
+  EXPECT_THAT(in_the_sea.codes(), ElementsAre(205));
+  EXPECT_THAT(in_the_sea.detail(),
+              AllOf(HasSubstr("at 4.47° N, 51.92° E, where 0 of 80 corners"), HasSubstr("at 51.92° N, 4.47° E 80 are"),
+                    HasSubstr("ogr2ogr -ct \"+proj=axisswap +order=2,1\"")));
+  const Georeferencing as_authority = run({rotterdam_with("EPSG:4326", false)});
+  EXPECT_THAT(as_authority.codes(), ElementsAre(205));
+  EXPECT_THAT(as_authority.detail(), HasSubstr("--crs OGC:CRS84 reads the longitude first"));
+  const Georeferencing as_crs84 = run({rotterdam_with("OGC:CRS84", true)});
+  EXPECT_THAT(as_crs84.codes(), ElementsAre(205));
+  EXPECT_THAT(as_crs84.detail(), HasSubstr("--crs EPSG:4326 reads the latitude first"));
+}
+
+TEST(LatitudesAndLongitudes, AreNotToldWhereTheyAreRight) {
+  EXPECT_THAT(run({rotterdam_with("OGC:CRS84", false)}).codes(), IsEmpty());
+  EXPECT_THAT(run({rotterdam_with("EPSG:4326", true)}).codes(), IsEmpty());
+}
+
+TEST(LatitudesAndLongitudes, CanBeExchangedAsTheAdviceSays) {
+  const auto codes_with = [](SourceCity source, const std::string& crs) { return run({std::move(source)}, {crs}).codes(); };
+  EXPECT_THAT(codes_with(rotterdam_with("EPSG:4326", false), "OGC:CRS84"), ElementsAre(203));
+  EXPECT_THAT(codes_with(rotterdam_with("OGC:CRS84", true), "EPSG:4326"), ElementsAre(203));
+}
+
 TEST(ZoneInEasting, IsTakenOff) {
   const Georeferencing prefixed = run("EPSG:25832", {32e6 + bonn.x, bonn.y, bonn.z}, 10.0);
   EXPECT_THAT(prefixed.codes(), ElementsAre(206));
