@@ -306,7 +306,7 @@ void judge(const FarTerrainSource& source, const FarTerrainMaker::Found& found, 
     std::ostringstream text;
     text << *found.stand_in << " is no height here, and counts as no data; gdal_edit.py -a_nodata " << *found.stand_in
          << " declares it";
-    report.add({ProblemCode::undeclared_no_data, file, "band 1", std::move(text).str(), middle});
+    report.add({ProblemCode::undeclared_no_data, file, "the whole file", std::move(text).str(), middle});
   }
   const auto step = plausibility::border_step(found.border_steps_m);
   if (!step) return;

@@ -20,13 +20,13 @@
 
 namespace farlod::georeference {
 
-void report_stand_in(const std::string& file, const Crs& own, const StandInOfFile& found, const std::string& where,
+void report_stand_in(const std::string& file, const Crs& own, const StandInOfFile& found, const std::string& how_many,
                      Report& report) {
   std::ostringstream text;
   text.precision(9);
-  text << where << found.number << " is no height here, and counts as no data; gdal_edit.py -a_nodata " << found.number
-       << " declares it";
-  Problem problem{ProblemCode::undeclared_no_data, file, "band 1", std::move(text).str(),
+  text << found.number << " is no height here, and counts as no data (" << how_many << "the first at " << place_text(found.place)
+       << "); gdal_edit.py -a_nodata " << found.number << " declares it";
+  Problem problem{ProblemCode::undeclared_no_data, file, "the whole file", std::move(text).str(),
                   Point3d{found.place.x, found.place.y, 0.0}};
   ProblemLocator(own, FileAxes{}, found.place).locate(problem);
   report.add(std::move(problem));

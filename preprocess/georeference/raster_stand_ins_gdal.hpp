@@ -21,8 +21,8 @@ struct StandInOfFile {
   Point2d place;
 };
 
-/// Reports undeclared_no_data; `where` begins the detail.
-void report_stand_in(const std::string& file, const Crs& own, const StandInOfFile& found, const std::string& where,
+/// Reports undeclared_no_data. `how_many`: "4 of 400 pixels here, ", or empty where a sample was searched.
+void report_stand_in(const std::string& file, const Crs& own, const StandInOfFile& found, const std::string& how_many,
                      Report& report);
 
 /// Throws InputError where they are heights in another unit (plausibility::sign_of_another_unit).

@@ -127,7 +127,7 @@ void require_heights(TerrainRaster& terrain, const PlacedRaster& raster, Heights
     if (raster.warped) continue;
     const Point2d place = terrain.node(found.first % terrain.columns, found.first / terrain.columns) + origin_m;
     report_stand_in(raster.path.string(), output, {raster.scale.number(found.height_m), place},
-                    std::to_string(found.pixels) + " of " + std::to_string(all) + " pixels here: ", report);
+                    std::to_string(found.pixels) + " of " + std::to_string(all) + " pixels here, ", report);
   }
 }
 
