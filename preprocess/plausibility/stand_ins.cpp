@@ -18,18 +18,36 @@ namespace {
 /// The numbers of rule (2) of take_out_stand_ins.
 bool may_stand_in(float height_m) { return height_m == 0.0F || height_m == -1.0F; }
 
-bool zero_stands_in(const std::vector<std::optional<float>>& heights_m, HeightsOf of) {
-  const float least_gap_m = of == HeightsOf::ground ? 20.0F : 100.0F;
-  float lowest_other_m = std::numeric_limits<float>::infinity();
-  bool has_zero = false;
+/// What the heights of a raster look like beside its zeros.
+struct BesideZeros {
+  float lowest_m = std::numeric_limits<float>::infinity();
+  std::size_t zeros = 0, others = 0;
+  std::set<float> different;  ///< of the others, as many as show that the ground has slopes
+};
+
+constexpr std::size_t levels_of_a_model = 16;
+
+BesideZeros beside_zeros(const std::vector<std::optional<float>>& heights_m) {
+  BesideZeros found;
   for (const auto& height_m : heights_m) {
     if (!height_m || !may_be_elevation(*height_m)) continue;
-    if (may_stand_in(*height_m))
-      has_zero = true;
-    else
-      lowest_other_m = std::min(lowest_other_m, *height_m);
+    if (may_stand_in(*height_m)) {
+      ++found.zeros;
+      continue;
+    }
+    ++found.others;
+    found.lowest_m = std::min(found.lowest_m, *height_m);
+    if (found.different.size() <= levels_of_a_model) found.different.insert(*height_m);
   }
-  return has_zero && lowest_other_m >= least_gap_m && lowest_other_m <= highest_elevation_m;
+  return found;
+}
+
+bool zero_stands_in(const std::vector<std::optional<float>>& heights_m, HeightsOf of) {
+  constexpr float least_gap_m = 20.0F, beyond_doubt_m = 100.0F;
+  const BesideZeros found = beside_zeros(heights_m);
+  if (found.zeros == 0 || found.others == 0 || found.lowest_m < least_gap_m) return false;
+  if (of == HeightsOf::ground || found.lowest_m >= beyond_doubt_m) return true;
+  return found.different.size() > levels_of_a_model && 2 * found.zeros < found.others;
 }
 
 /// The least number of all and the next one.
@@ -57,16 +75,15 @@ struct Lowest {
 
 /// The number of rule (3) of take_out_stand_ins.
 std::optional<float> number_apart(const std::vector<std::optional<float>>& heights_m, HeightsOf of) {
-  constexpr std::size_t enough = 16;
   Lowest lowest, highest;  // that of heights that count downwards
   std::set<float> different;
   for (const auto& height_m : heights_m) {
     if (!height_m || !may_be_elevation(*height_m)) continue;
     lowest.add(*height_m);
     highest.add(-*height_m);
-    if (different.size() <= enough) different.insert(*height_m);
+    if (different.size() <= levels_of_a_model) different.insert(*height_m);
   }
-  if (different.size() <= enough) return std::nullopt;
+  if (different.size() <= levels_of_a_model) return std::nullopt;
   const float least_gap_m = of == HeightsOf::ground ? 50.0F : 100.0F;
   if (lowest.is_apart(-highest.height_m, least_gap_m, heights_m.size())) return lowest.height_m;
   if (of == HeightsOf::ground && highest.is_apart(-lowest.height_m, least_gap_m, heights_m.size())) return -highest.height_m;

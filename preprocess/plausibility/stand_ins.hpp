@@ -25,8 +25,9 @@ struct StandIn {
 
 /// Empties the pixels that hold a stand-in, and returns all stand-ins, the most frequent first.
 ///   (1) heights below lowest_elevation_m or above highest_elevation_m, which no place on land has (-9999, -32768, -3.4e38)
-///   (2) heights of exactly 0 or -1 where all others are higher: than 20 m for a ground, which slopes down to a sea elsewhere;
-///       than 100 m for surfaces, since a raster may count from its own ground
+///   (2) heights of exactly 0 or -1 where all others are higher than 20 m: ground slopes down to a sea elsewhere. Surfaces may
+///       be towers that count from their own ground, at 0: where any other is lower than 100 m, they must be 17 different
+///       numbers at least, and more than twice as many pixels, since streets and yards take more room beside towers
 ///   (3) the lowest number of all, for a ground also the highest one, which no other is near: it stands in one of 1,000 pixels
 ///       and in 16 at least, and is apart from the others by 50 m (surfaces: 100 m), and by as much as they differ themselves;
 ///       these are 16 numbers at least. Ground has slopes, and the roof of a tower is not below the town

@@ -97,6 +97,18 @@ TEST_F(SurfaceModel, OfOtherUnitsAndQuantitiesIsDoubted) {
   EXPECT_EQ(folder.run("farlod-pack --terrain dsm.asc --crs EPSG:32632 -o b.farlod --strict").exit_code, exit_unusable_input);
 }
 
+/// They were a pit of 22 m, without a word.
+TEST_F(SurfaceModel, HasNoPitWhereZerosStandForNoData) {
+  pack_heights([](Point2d p) {
+    const bool is_empty = p.x > 10.0 && p.y > 10.0, is_roof = std::fmod(std::abs(p.x), 20.0) > 15.0;
+    return is_empty ? 0.0 : 22.0 + 0.01 * (p.x + 40.0) + (is_roof ? 9.0 : 0.0);
+  });
+  EXPECT_THAT(said(), testing::HasSubstr("211 undeclared_no_data"));
+  EXPECT_THAT(said(), testing::HasSubstr("           dsm.asc: 0 is no height here, and counts as no data ("));
+  EXPECT_THAT(said(), testing::HasSubstr(" pixels here, the first at "));
+  EXPECT_THAT(said(), testing::HasSubstr("Ground and roofs: 22.0 m to "));
+}
+
 class SurfaceModelRead : public SurfaceModel, public testing::WithParamInterface<Reading> {};
 
 TEST_P(SurfaceModelRead, RectangularCourt) {

@@ -51,6 +51,22 @@ TEST(StandIns, AreNoZerosOfASeaOrOfARasterThatCountsFromItsOwnGround) {
   EXPECT_EQ(taken(0.0F, {25.0F, 40.0F}, HeightsOf::surfaces), 0u) << "roofs above a ground at 0";
 }
 
+/// Of 300 pixels, zeros and others that are so many different numbers from 22 m on.
+std::size_t zeros_taken(std::size_t zeros, std::size_t different) {
+  Heights heights_m(zeros, 0.0F);
+  for (std::size_t n = zeros; n < 300; ++n) heights_m.emplace_back(22.0F + 0.3F * static_cast<float>(n % different));
+  std::size_t pixels = 0;
+  for (const StandIn& found : take_out_stand_ins(heights_m, HeightsOf::surfaces)) pixels += found.pixels;
+  return pixels;
+}
+
+TEST(StandIns, AreZerosOfASurfaceModelThatHasGroundAboveThem) {
+  EXPECT_EQ(zeros_taken(40, 50), 40U) << "a block without data";
+  EXPECT_EQ(zeros_taken(1, 50), 1U);
+  EXPECT_EQ(zeros_taken(40, 16), 0U) << "towers of a few levels";
+  EXPECT_EQ(zeros_taken(100, 50), 0U) << "streets among towers";
+}
+
 /// A ground, or a town, between 500 and 560 m, and `number` in one of 100 pixels.
 Heights heights_with(float number, std::size_t pixels = 40) {
   Heights heights_m;
