@@ -83,6 +83,7 @@ class FootprintLayer {
         parts_(layer, table_),
         heights_(table_.names(), with_fields_checked(settings)),
         is_height_named_(settings.height_field.has_value()),
+        named_storeys_(settings.storeys_field),
         floor_height_m_(settings.floor_height_m) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
@@ -125,6 +126,8 @@ class FootprintLayer {
           builder_.source() + ": " + std::to_string(count) + (count == 1 ? " height is" : " heights are") + " of the field ";
       if (is_height_named_ && field != heights_.fields().front())
         notes.push_back(of_field + table_.names()[field] + ", where " + table_.names()[heights_.fields().front()] + " has none");
+      if (named_storeys_ && !is_height_named_)
+        notes.push_back(of_field + table_.names()[field] + ", which counts before the storeys of " + *named_storeys_);
       if (unit_of(table_.names()[field]) == LengthUnit::foot)
         notes.push_back(of_field + table_.names()[field] + ", which is in feet by its name");
     }
@@ -318,6 +321,7 @@ class FootprintLayer {
   bool holds_bodies_ = false;
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
   bool is_height_named_ = false;
+  std::optional<std::string> named_storeys_;
   double floor_height_m_;
   std::map<std::size_t, std::size_t> raised_by_field_;
   SaidHeights said_;

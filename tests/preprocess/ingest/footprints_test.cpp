@@ -47,6 +47,19 @@ TEST(Footprints, SayHowManyHeightsWereNotMeasured) {
   EXPECT_TRUE(read_features({feature(R"("height":3)", "Polygon", square)}).source.notes.empty());
 }
 
+TEST(Footprints, SayThatHeightsCountBeforeTheStoreysThatAreAskedFor) {
+  const std::vector<std::string> features{feature(R"("height":3,"n":2)", "Polygon", square),
+                                          feature(R"("height":9,"n":4)", "Polygon", square),
+                                          feature(R"("height":null,"n":4)", "Polygon", square)};
+  IngestSettings settings;
+  settings.footprints.storeys_field = "n";
+  const Reading r = read_features(features, settings);
+  ASSERT_EQ(r.source.notes.size(), 2u);
+  EXPECT_TRUE(r.source.notes[0].ends_with("1 heights are storeys of 3 m")) << r.source.notes[0];
+  EXPECT_TRUE(r.source.notes[1].ends_with("2 heights are of the field height, which counts before the storeys of n"))
+      << r.source.notes[1];
+}
+
 TEST(Footprints, BecomePrismsThatFaceOutwards) {
   const Reading r = read_features({feature(R"("height":3)", "Polygon", square)});
   ASSERT_EQ(r.city().buildings().size(), 1u);
