@@ -95,7 +95,9 @@ inline void require_whole(bool rule, const std::string& name, const char* what) 
 inline void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw OutputError(folder.string() + " cannot be made: " + error.message());
+  if (error)
+    throw OutputError(folder.string() + " cannot be made: " + error.message() +
+                      "; choose another folder for -o, or see who may write there");
 }
 
 }  // namespace farlod

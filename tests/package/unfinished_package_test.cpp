@@ -68,6 +68,12 @@ class PackageInTheMaking : public testing::Test {
   PackageOrigin origin_{"farlod-pack 1", {{"town.gml", {10, 1}}}, {{"cell", "50"}}};
 };
 
+TEST_F(PackageInTheMaking, TellsWhereToGoFromAFolderInWhichNothingCanBeMade) {
+  std::ofstream(folder_.file("notes.txt")) << "no folder";
+  package_ = folder_.file("notes.txt") / "town.farlod";
+  EXPECT_THAT(refusal(origin_), AllOf(HasSubstr("town.farlod.unfinished cannot be made: "), HasSubstr("another folder for -o")));
+}
+
 TEST_F(PackageInTheMaking, IsUnderItsNameOnceItIsPublished) {
   auto unfinished = opened(origin_);
   const auto files = make_block(unfinished, "new");
