@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <sstream>
 #include <utility>
 
@@ -82,14 +81,6 @@ std::string explanation(const Crs& crs, Point2d p_map, std::optional<double> bui
     if (auto unit = unit_that_fits(crs, p_map, building_extent)) return *unit;
   if (is_of_a_site(crs, p_map)) return "it looks like a model of a site: give it its place (--origin X,Y of a mesh)";
   return "is it the right CRS? --crs EPSG:n names another";
-}
-
-/// "57.59° N, 9.10° E".
-std::string degrees_text(Point2d lon_lat_deg) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << std::abs(lon_lat_deg.y) << (lon_lat_deg.y < 0.0 ? "° S, " : "° N, ")
-       << std::abs(lon_lat_deg.x) << (lon_lat_deg.x < 0.0 ? "° W" : "° E");
-  return text.str();
 }
 
 /// " (57.59° N, 9.10° E)" for a place of a map.

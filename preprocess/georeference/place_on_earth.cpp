@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "base/expects.hpp"
 #include "georeference/crs.hpp"
@@ -35,6 +37,13 @@ bool is_geocentric(const Crs& crs) {
 bool lies_on_earth(Point2d lon_lat_deg) { return std::abs(lon_lat_deg.x) <= 180.0 && std::abs(lon_lat_deg.y) <= 90.0; }
 
 }  // namespace
+
+std::string degrees_text(Point2d lon_lat_deg) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << std::abs(lon_lat_deg.y) << (lon_lat_deg.y < 0.0 ? "° S, " : "° N, ")
+       << std::abs(lon_lat_deg.x) << (lon_lat_deg.x < 0.0 ? "° W" : "° E");
+  return text.str();
+}
 
 PlaceOnEarth place_of(const Georeference& georeference) {
   const auto crs = Crs::find(georeference.crs_wkt);

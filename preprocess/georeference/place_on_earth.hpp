@@ -23,4 +23,7 @@ struct PlaceOnEarth {
 /// The country in the name of an area of the EPSG register: its first words. Empty for zones, continents and lists.
 [[nodiscard]] std::string country_in(std::string_view area_name);
 
+/// "57.59° N, 9.10° E".
+[[nodiscard]] std::string degrees_text(Point2d lon_lat_deg);
+
 }  // namespace farlod::georeference

@@ -11,6 +11,7 @@
 #include "gdal/height_raster_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/input_crs.hpp"
+#include "georeference/place_on_earth.hpp"
 
 namespace farlod::georeference {
 
@@ -72,6 +73,19 @@ std::string text_of(const Box2d& box, const Crs& crs) {
                      box.high.y, digits, crs.name());
 }
 
+/// Where the city lies in the raster with its latitude and longitude exchanged; else what may be wrong with a CRS.
+std::string reason_of_elsewhere(const PlacedRaster& raster, const Crs& output, const Box2d& wanted) {
+  const auto city = output.lon_lat_deg(0.5 * (wanted.low + wanted.high));
+  const Box2d own = raster.extent();
+  Box2d box_deg;
+  for (const Point2d corner : {own.low, own.high, Point2d{own.low.x, own.high.y}, Point2d{own.high.x, own.low.y}})
+    if (const auto place = raster.own->lon_lat_deg(corner)) box_deg.add(*place);
+  if (city && box_deg.contains({city->y, city->x}))
+    return "It lies where the city is with latitude and longitude exchanged, at " + degrees_text({city->y, city->x}) +
+           " instead of " + degrees_text(*city) + ": are they exchanged in its files?";
+  return "Is one of the two CRSs wrong (--crs is for files that name none), or is the file of another place?";
+}
+
 }  // namespace
 
 void refuse_elsewhere(const std::string& name, const PlacedRaster& raster, const Crs& output, const Box2d& wanted) {
@@ -82,10 +96,9 @@ void refuse_elsewhere(const std::string& name, const PlacedRaster& raster, const
     for (const Point2d corner : {frame.place(0.0, 0.0), frame.place(raster.columns(), raster.rows())}) box.add(corner);
     there = ", which is " + text_of(box, output);
   }
-  throw InputError(fmt::format(
-      "{} does not meet the city: it lies {} ({}){}; the city with its cells lies {}. Is one of the two CRSs wrong (--crs is for "
-      "files that name none), or is the file of another place?",
-      name, text_of(raster.extent(), *raster.own), raster.whose_crs, there, text_of(wanted, output)));
+  throw InputError(fmt::format("{} does not meet the city: it lies {} ({}){}; the city with its cells lies {}. {}", name,
+                               text_of(raster.extent(), *raster.own), raster.whose_crs, there, text_of(wanted, output),
+                               reason_of_elsewhere(raster, output, wanted)));
 }
 
 std::string length_text(double length_m) {
