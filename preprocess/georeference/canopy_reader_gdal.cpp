@@ -143,6 +143,7 @@ std::pair<CanopyRaster, std::vector<std::string>> read_canopy(const CanopyFiles&
   std::vector<std::string> notes;
   if (tops.is_in_crs_of_city) notes.push_back(note_of_city_crs(tops.path.string(), 1, georeference));
   if (!tops.note.empty()) notes.push_back(tops.note);
+  if (auto note = note_of_unit(tops)) notes.push_back(std::move(*note));
   if (!files.trunks) return {std::move(canopy), std::move(notes)};
   const PlacedRaster trunks = make_ready(*files.trunks, files.layer, fallback_crs, *output);
   if (trunks.is_in_crs_of_city) notes.push_back(note_of_city_crs(trunks.path.string(), 1, georeference));

@@ -233,6 +233,18 @@ Crs output_of(const ResolvedSource& first, const std::string& wish, Report& repo
   return output;
 }
 
+/// Of heights that are taken in the unit of the map, for the first file: the tiles of a city are alike.
+std::vector<std::string> notes_of_units(const std::vector<SourceCity>& sources, const std::vector<InputCrs>& inputs) {
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    if (sources[n].crs.heights_in_metres) continue;
+    const Crs& crs = inputs[n].named.crs;
+    const auto code = crs.epsg();
+    const std::string example = code ? ", such as --crs EPSG:" + std::to_string(*code) + "+5703 (NAVD88 in metres)" : "";
+    if (auto note = note_of_height_unit(sources[n].source, crs, "name a CRS with heights in metres" + example)) return {*note};
+  }
+  return {};
+}
+
 bool is_empty(const SourceCity& source) { return source.city.points().empty() && source.relief_points.empty(); }
 
 }  // namespace
@@ -240,7 +252,7 @@ bool is_empty(const SourceCity& source) { return source.city.points().empty() &&
 LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSettings& settings, Report& report) {
   std::erase_if(sources, is_empty);
   const std::vector<InputCrs> inputs = crs_of_inputs(sources, settings);
-  LocatedCity located;
+  LocatedCity located{.city = {}, .georeference = {}, .notes = notes_of_units(sources, inputs)};
   std::optional<Crs> output;
   std::string heights_of_model;
   for (std::size_t n = 0; n < sources.size(); ++n) {

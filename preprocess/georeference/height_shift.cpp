@@ -72,6 +72,24 @@ std::string note_of_shift(const std::string& source, const Crs& own, const std::
   return std::move(text).str();
 }
 
+std::optional<std::string> note_of_height_unit(const std::string& source, const Crs& own, const std::string& way_to_metres) {
+  constexpr double like_the_same = 1e-9;
+  const double unit_m = own.height_unit_m();
+  if (own.says_height_unit() || unit_m == 1.0) return std::nullopt;
+  const auto is = [unit_m](const LengthUnit& unit) { return std::abs(unit_m / unit.metres - 1.0) < like_the_same; };
+  std::ostringstream text;
+  text.precision(9);
+  text << source << ": its heights are taken for ";
+  if (is(us_survey_foot))
+    text << "US survey feet";
+  else if (is(foot))
+    text << "feet";
+  else
+    text << "units of " << unit_m << " m";
+  text << ", the unit of " << own.name() << ", since nothing tells their own; where they are metres, " << way_to_metres;
+  return std::move(text).str();
+}
+
 void shift_heights(ResolvedSource& resolved, std::vector<std::string>& notes, std::string& heights_of_model, Report& report) {
   const std::string& name = resolved.source.source;
   const auto shift = height_shift_for(name, resolved.crs, heights_of_model, resolved.typical, report);

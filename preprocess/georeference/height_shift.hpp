@@ -46,6 +46,11 @@ struct ResolvedSource;
 [[nodiscard]] std::string note_of_shift(const std::string& source, const Crs& own, const std::string& heights_of_model,
                                         double shift_m);
 
+/// For the user: heights are taken in the unit of the map, which is no metre, since the CRS has no vertical axis. Empty where
+/// they are not. `way_to_metres`: how to say that they are in metres.
+[[nodiscard]] std::optional<std::string> note_of_height_unit(const std::string& source, const Crs& own,
+                                                             const std::string& way_to_metres);
+
 /// Brings the heights of a file to the vertical system of the model, which becomes that of the first file that has one. Heights
 /// above the ground have none. `notes`: for the user.
 void shift_heights(ResolvedSource& resolved, std::vector<std::string>& notes, std::string& heights_of_model, Report& report);

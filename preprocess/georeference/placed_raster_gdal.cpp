@@ -10,6 +10,7 @@
 #include "farlod/error.hpp"
 #include "gdal/height_raster_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
+#include "georeference/height_shift.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/place_on_earth.hpp"
 
@@ -99,6 +100,11 @@ void refuse_elsewhere(const std::string& name, const PlacedRaster& raster, const
   throw InputError(fmt::format("{} does not meet the city: it lies {} ({}){}; the city with its cells lies {}. {}", name,
                                text_of(raster.extent(), *raster.own), raster.whose_crs, there, text_of(wanted, output),
                                reason_of_elsewhere(raster, output, wanted)));
+}
+
+std::optional<std::string> note_of_unit(const PlacedRaster& raster) {
+  if (named_unit_m(*raster.file->GetRasterBand(1))) return std::nullopt;
+  return note_of_height_unit(raster.path.string(), *raster.own, "gdal_edit.py -units m FILE says so");
 }
 
 std::string length_text(double length_m) {

@@ -85,6 +85,9 @@ struct PlacedRaster {
 /// it; `wanted` is in the output CRS. Throws InputError.
 [[noreturn]] void refuse_elsewhere(const std::string& name, const PlacedRaster& raster, const Crs& output, const Box2d& wanted);
 
+/// For the user, of a raster whose CRS is taken: note_of_height_unit. Empty where the band names its unit.
+[[nodiscard]] std::optional<std::string> note_of_unit(const PlacedRaster& raster);
+
 /// A length as messages show it: five digits.
 [[nodiscard]] std::string length_text(double length_m);
 

@@ -191,6 +191,17 @@ std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::st
   return terrain;
 }
 
+std::optional<std::string> note_of_unit(const TerrainFile& file, const std::string& fallback_crs,
+                                        const Georeference& georeference) {
+  const GdalErrors quiet;
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  PlacedRaster raster{file.path, open_raster(file)};
+  raster.crs_in_place = file.crs;
+  (void)raster.take_crs(fallback_crs, *output);
+  return note_of_unit(raster);
+}
+
 std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const std::string& fallback_crs,
                                                  const Georeference& georeference, Report& report) {
   const GdalErrors quiet;
@@ -210,9 +221,10 @@ std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const 
     for (const Point3d& p : centres_of_row(raster, frame, row, projection))
       if (is_on_a_map(p)) surface.points_city.push_back(p - Point3d{georeference.origin_m.x, georeference.origin_m.y, 0.0});
   report_surface(file.path.string(), plausibility::shape_of(surface.points_city), georeference, report);
-  surface.note = file.path.string() + ": since " + (own.equals(*output) ? "it is turned" : "it is in " + own.name()) +
-                 ", the centres of its pixels are brought to " + output->name() +
-                 " one by one; slopes stand between them, and no walls";
+  surface.notes.push_back(file.path.string() + ": since " + (own.equals(*output) ? "it is turned" : "it is in " + own.name()) +
+                          ", the centres of its pixels are brought to " + output->name() +
+                          " one by one; slopes stand between them, and no walls");
+  if (auto note = note_of_unit(raster)) surface.notes.push_back(std::move(*note));
   return surface;
 }
 

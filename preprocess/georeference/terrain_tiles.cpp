@@ -161,6 +161,7 @@ TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string
   TerrainRaster terrain = read_tiles(files, fallback_crs, georeference, wanted_city, report);
   terrain.source = files.front().path.string();
   if (terrain.is_in_crs_of_city) terrain.notes.push_back(note_of_city_crs(terrain.source, files.size(), georeference));
+  if (auto note = note_of_unit(files.front(), fallback_crs, georeference)) terrain.notes.push_back(std::move(*note));
   if (!wanted_city) report_surface(files.front().path.string(), plausibility::shape_of(terrain), georeference, report);
   return terrain;
 }

@@ -167,7 +167,7 @@ class CityReading {
       throw InputError(files_.terrain.files.front().path.string() + " has no heights: give a surface model that has some.");
     for (Point3d& p : surface->points_city) p.z += settings_.terrain_offset_m;
     read_.located.relief_points = std::move(surface->points_city);
-    read_.notes.push_back(std::move(surface->note));
+    std::move(surface->notes.begin(), surface->notes.end(), std::back_inserter(read_.notes));
     files_.terrain.files.clear();
   }
 

@@ -114,6 +114,20 @@ TEST(Georeference, AsksTheVerticalAxisForTheUnitOfHeights) {
   EXPECT_EQ(locate(source_with("EPSG:2263+5703", {1025000.0, 172918.0, 100.0}, 30.0)).city.points()[0].z, 100.0);
 }
 
+TEST(HeightsOfAMapInFeet, AreToldWhereNothingNamesTheirUnit) {
+  const Point3d first_ft{1025000.0, 172918.0, 100.0};
+  EXPECT_THAT(locate(source_with("EPSG:2263", first_ft, 30.0)).notes,
+              ElementsAre(AllOf(HasSubstr("town.gml: its heights are taken for US survey feet"), HasSubstr("EPSG:2263+5703"))));
+  for (const char* named : {"EPSG:2263+5703", "EPSG:2263+6360"})
+    EXPECT_THAT(locate(source_with(named, first_ft, 30.0)).notes, IsEmpty()) << named;
+  SourceCity footprints = source_with("EPSG:2263", first_ft, 30.0);
+  footprints.crs.heights_in_metres = true;
+  EXPECT_THAT(locate(std::move(footprints)).notes, IsEmpty());
+  Report report;
+  const std::vector<SourceCity> tiles(2, source_with("EPSG:2263", first_ft, 30.0));
+  EXPECT_THAT(georeference(tiles, {}, report).notes, testing::SizeIs(1)) << "once for all";
+}
+
 TEST(Georeference, LeavesWebMercator) {
   const Point3d place = in_crs("EPSG:4326", "EPSG:3857", {8.0, 60.0, 5.0});
   const LocatedCity located = locate(source_with("EPSG:3857", place, 10.0));

@@ -223,7 +223,7 @@ TEST_F(TurnedSurfaces, AloneKeepsItsPixelsWhereTheyAre) {
   EXPECT_NEAR(surface->points_city[0].y, first.y, rounding_m);
   EXPECT_EQ(surface->points_city[0].z, 10.0);
   EXPECT_EQ(surface->points_city[2].z, 0.0);
-  EXPECT_THAT(surface->note, HasSubstr("since it is turned"));
+  EXPECT_THAT(surface->notes, ElementsAre(HasSubstr("since it is turned")));
   EXPECT_FALSE(read_turned_surface(tile("north.asc", 0.0, 2.0, "1 2\n3 4\n"), "EPSG:25832", frame, report).has_value());
 }
 

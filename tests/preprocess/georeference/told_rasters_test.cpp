@@ -5,6 +5,7 @@
 #include <ogr_spatialref.h>
 
 #include <array>
+#include <span>
 #include <string>
 
 #include "farlod/error.hpp"
@@ -14,12 +15,16 @@
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
-// What is said of where a raster lies.
+// What is said of where a raster lies, and of the unit in which it counts.
 
 namespace farlod::georeference {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
 
 class ToldRasters : public testing::Test {
  protected:
@@ -58,6 +63,21 @@ TEST_F(ToldRasters, LieWhereTheCityIsWithExchangedDegrees) {
   EXPECT_THAT(message(*off_somalia), HasSubstr("with latitude and longitude exchanged, at 51.92° N, 4.47° E instead of 4.47° N, "
                                                "51.92° E: are they exchanged in its files?"));
   EXPECT_THAT(message(*off_somalia + Point2d{50e3, 0.0}), HasSubstr("Is one of the two CRSs wrong"));
+}
+
+TEST_F(ToldRasters, AreInFeetThatOnlyTheMapTells) {
+  const auto notes_of = [&](int code, const std::string& unit) {
+    const auto dataset = new_raster("dsm.tif", code, {990000.0, 3.0, 0.0, 220000.0, 0.0, -3.0});
+    if (!unit.empty()) dataset->GetRasterBand(1)->SetUnitType(unit.c_str());
+    dataset->FlushCache();
+    const TerrainFile terrain(file("dsm.tif"));
+    const Georeference city = georeference_of_terrain(terrain, {}, report);
+    const auto surface = read_turned_surface(terrain, "", city, report);
+    return surface ? surface->notes : read_terrain(std::span(&terrain, 1), "", city, std::nullopt, report).notes;
+  };
+  EXPECT_THAT(notes_of(2263, ""), Contains(AllOf(HasSubstr("taken for US survey feet"), HasSubstr("gdal_edit.py -units m"))));
+  EXPECT_THAT(notes_of(2263, "m"), Not(Contains(HasSubstr("taken for"))));
+  EXPECT_THAT(notes_of(32118, ""), IsEmpty());
 }
 
 }  // namespace
