@@ -233,7 +233,7 @@ Crs output_of(const ResolvedSource& first, const std::string& wish, Report& repo
   return output;
 }
 
-/// Of heights that are taken in the unit of the map, for the first file: the tiles of a city are alike.
+/// Heights that are taken in the unit of the map, for the first file: the tiles of a city are alike.
 std::vector<std::string> notes_of_units(const std::vector<SourceCity>& sources, const std::vector<InputCrs>& inputs) {
   for (std::size_t n = 0; n < sources.size(); ++n) {
     if (sources[n].crs.heights_in_metres) continue;

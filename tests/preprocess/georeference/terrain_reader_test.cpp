@@ -336,9 +336,7 @@ TEST_F(TerrainReader, NumbersThatNobodyDeclaredAsNoDataAreEmpty) {
     const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}, report), std::nullopt, report);
     EXPECT_EQ(std::count(terrain.height_m.begin(), terrain.height_m.end(), std::nullopt), 4) << number;
     EXPECT_EQ(std::count(terrain.height_m.begin(), terrain.height_m.end(), 500.0F), 396) << number;
-    EXPECT_EQ(report.problems()[0].place, "the whole file") << "which the terminal shows with its detail";
-    EXPECT_THAT(told(report),
-                ElementsAre(AllOf(HasSubstr(" (4 of 400 pixels here, the first at "), HasSubstr("gdal_edit.py -a_nodata"))));
+    EXPECT_THAT(told(report), ElementsAre(AllOf(HasSubstr("(4 of 400 pixels here, "), HasSubstr("gdal_edit.py -a_nodata"))));
   }
 }
 
