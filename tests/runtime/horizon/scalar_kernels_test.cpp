@@ -61,11 +61,11 @@ class ScalarKernels : public testing::TestWithParam<KernelTarget> {
     return packet_of(places);
   }
   /// Edges around, across and right above the receivers. Facets are walls on both sides, so that every edge faces everywhere.
-  [[nodiscard]] std::vector<HorizonEdge> random_edges(EdgeRole role, const ReceiverPacket& packet) {
+  [[nodiscard]] std::vector<HorizonEdge> random_edges(EdgeRole role, const ReceiverPacket& packet, int of_each_reach = 12) {
     const std::int8_t wall = role == EdgeRole::underside ? AdjacentSlopes::straight_up : AdjacentSlopes::straight_down;
     std::vector<HorizonEdge> edges;
     for (const double reach_m : {15.0, 60.0, 400.0})
-      for (int n = 0; n < 12; ++n) edges.push_back(random_.edge(reach_m, -5.0, 40.0));
+      for (int n = 0; n < of_each_reach; ++n) edges.push_back(random_.edge(reach_m, -5.0, 40.0));
     for (std::size_t l = 0; l < 4; ++l) {
       const Point3f along = random_.direction_at(0.0);
       const auto on_line = [&](float s) { return Point3f{packet.x[l] + s * along.x, packet.y[l] + s * along.y, 25.0F}; };
@@ -101,16 +101,13 @@ TEST_P(ScalarKernels, HorizonsRaisedToEdges) {
       const SilhouetteEdges silhouettes_of_role = silhouettes(role, edges);
       Rows slopes(azimuths_.size()), unnumbered = slopes;
       Numbers numbers(azimuths_.size());
-      const auto raise = [&](Culling culling, Rows& raised_slopes, std::int32_t* edge_numbers) {
-        edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), culling,
+      const auto raise = [&](Rows& raised_slopes, std::int32_t* edge_numbers) {
+        edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), Culling::nothing_drawn,
                               data(raised_slopes), edge_numbers);
       };
-      raise(Culling::nothing_drawn, slopes, numbers.front().data());
-      for (const Culling culling : {Culling::mostly_seen, Culling::mostly_drawn, Culling::nothing_drawn}) {
-        unnumbered.assign(azimuths_.size(), {});
-        raise(culling, unnumbered, nullptr);
-        EXPECT_EQ(unnumbered, slopes);
-      }
+      raise(slopes, numbers.front().data());
+      raise(unnumbered, nullptr);
+      EXPECT_EQ(unnumbered, slopes);
       for (std::size_t k = 0; k < azimuths_.size(); ++k)
         for (std::size_t l = 0; l < lanes; ++l) {
           EXPECT_EQ(slopes[k][l], scalar::raised(0.0F, edges, place(packet, l), bounds, azimuth(k)))
@@ -126,6 +123,26 @@ TEST_P(ScalarKernels, HorizonsRaisedToEdges) {
         }
     }
   EXPECT_GT(raised, 100'000U);
+}
+
+/// So many edges that minima are renewed several times, from far to near, so that the last ones still rise above the horizon.
+TEST_P(ScalarKernels, HorizonsDoNotDependOnCulling) {
+  for (int n = 0; n < 6; ++n) {
+    const ReceiverPacket packet = random_packet(4.0);
+    const PacketBounds bounds = bounds_of(packet);
+    std::vector<HorizonEdge> edges = random_edges(EdgeRole::grounded, packet, 200);
+    std::reverse(edges.begin(), edges.end());
+    const SilhouetteEdges grounded = silhouettes(EdgeRole::grounded, edges);
+    Rows wanted(azimuths_.size());
+    for (std::size_t k = 0; k < azimuths_.size(); ++k)
+      for (std::size_t l = 0; l < lanes; ++l) wanted[k][l] = scalar::raised(0.0F, edges, place(packet, l), bounds, azimuth(k));
+    for (const Culling culling : {Culling::nothing_drawn, Culling::mostly_drawn, Culling::mostly_seen}) {
+      Rows slopes(azimuths_.size());
+      edge().raise_to_edges({grounded.batches(), EdgeRole::grounded}, packet, bounds, azimuths_.view(), culling, data(slopes),
+                            nullptr);
+      EXPECT_EQ(slopes, wanted) << n << ", " << static_cast<int>(culling);
+    }
+  }
 }
 
 TEST_P(ScalarKernels, HorizonsLoweredToEdgesAboveAMinimum) {
