@@ -203,6 +203,7 @@ struct TerrainRaster {
   std::size_t columns = 0, rows = 0;
   std::vector<std::optional<float>> height_m;  ///< row by row from the south; empty where the raster has no data
   std::vector<std::string> notes = {};         ///< for the user: what was done to the file
+  std::optional<std::string> note_of_unit;     ///< for the user: its heights are taken in the unit of the map
   double offset_m = 0.0;                       ///< by which the user raised the heights
   bool is_resampled = false;                   ///< its pixels are not those of a file
   bool covers_pixels = false;                  ///< to their outer sides, with walls where steps are (tiles::SteppedSurface)

@@ -77,9 +77,6 @@ void take_crs_of_inputs(std::span<TerrainFile> files, const GeoreferenceSettings
                                  const Georeference& georeference, const Box2d& wanted_city);
 /// The vertical system that the file says; empty where it says none.
 [[nodiscard]] std::string heights_of_terrain(const TerrainFile& file);
-/// For the user: that the heights are taken in the unit of the map (note_of_height_unit).
-[[nodiscard]] std::optional<std::string> note_of_unit(const TerrainFile& file, const std::string& fallback_crs,
-                                                      const Georeference& georeference);
 /// Reads the tiles of one terrain, of which some may lie elsewhere. Throws InputError when all do, and as for a single file.
 /// Where neither the city nor a file before says its vertical system, that of a file is the one of those after it.
 /// Without `wanted_city`, heights that are hardly those of a city are reported (implausible_size).

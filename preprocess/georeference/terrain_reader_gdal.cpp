@@ -187,19 +187,9 @@ std::optional<TerrainRaster> find_terrain(const TerrainFile& file, const std::st
   shift_heights(*terrain, file.path.string(), own, georeference, report);
   terrain->is_resampled = ready.warped != nullptr;
   terrain->is_in_crs_of_city = ready.is_in_crs_of_city;
+  terrain->note_of_unit = note_of_unit(ready);
   if (!ready.note.empty()) terrain->notes.push_back(ready.note);
   return terrain;
-}
-
-std::optional<std::string> note_of_unit(const TerrainFile& file, const std::string& fallback_crs,
-                                        const Georeference& georeference) {
-  const GdalErrors quiet;
-  const auto output = Crs::find(georeference.crs_wkt);
-  FARLOD_EXPECTS(output.has_value());
-  PlacedRaster raster{file.path, open_raster(file)};
-  raster.crs_in_place = file.crs;
-  (void)raster.take_crs(fallback_crs, *output);
-  return note_of_unit(raster);
 }
 
 std::optional<TurnedSurface> read_turned_surface(const TerrainFile& file, const std::string& fallback_crs,

@@ -127,6 +127,7 @@ TerrainRaster merged(const std::vector<TerrainRaster>& tiles) {
     lay_upon(net, tile);
     net.is_resampled |= tile.is_resampled;
     net.is_in_crs_of_city |= tile.is_in_crs_of_city;
+    if (!net.note_of_unit) net.note_of_unit = tile.note_of_unit;
     net.notes.insert(net.notes.end(), tile.notes.begin(), tile.notes.end());
   }
   return net;
@@ -161,7 +162,7 @@ TerrainRaster read_terrain(std::span<const TerrainFile> files, const std::string
   TerrainRaster terrain = read_tiles(files, fallback_crs, georeference, wanted_city, report);
   terrain.source = files.front().path.string();
   if (terrain.is_in_crs_of_city) terrain.notes.push_back(note_of_city_crs(terrain.source, files.size(), georeference));
-  if (auto note = note_of_unit(files.front(), fallback_crs, georeference)) terrain.notes.push_back(std::move(*note));
+  if (terrain.note_of_unit) terrain.notes.push_back(*terrain.note_of_unit);
   if (!wanted_city) report_surface(files.front().path.string(), plausibility::shape_of(terrain), georeference, report);
   return terrain;
 }
