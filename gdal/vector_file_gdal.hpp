@@ -54,6 +54,9 @@ struct LayerChoice {
 
 [[nodiscard]] std::vector<std::string> field_names(OGRLayer& layer);
 
+/// The option of preprocess that names an encoding.
+inline constexpr const char* encoding_option = "--encoding";
+
 /// Throws InputError where a text is not UTF-8, as those of Shapefiles are that do not say what they are in. Names and texts go
 /// into messages, packages and tables, which are UTF-8. `option`: names the encoding; null where there is none.
 void require_utf8(const std::string& text, OGRLayer& layer, const std::string& file, const char* option);

@@ -31,7 +31,6 @@ namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
-constexpr const char* encoding_option = "--encoding";
 
 bool holds_ascii_alone(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return (c & 0x80) == 0; });

@@ -24,8 +24,6 @@
 namespace farlod::ingest {
 namespace {
 
-constexpr const char* encoding_of_trees_option = "--encoding";
-
 GDALDatasetUniquePtr open(const std::filesystem::path& file, const std::optional<std::string>& encoding, GdalErrors& messages) {
   GDALDatasetUniquePtr dataset = open_vector_file_or_table(file, encoding);
   if (dataset) return dataset;
@@ -84,7 +82,7 @@ class TreeLayer {
         names_(field_names(layer)),
         fields_(names_, settings),
         trees_(source_, settings.trunk_ratio) {
-    require_utf8_names(layer, source_, encoding_of_trees_option);
+    require_utf8_names(layer, source_, encoding_option);
     require_fields(settings);
     const OGRSpatialReference* reference = layer.GetSpatialRef();
     trees_.crs() = {wkt_of(reference), true, true};
@@ -154,7 +152,7 @@ class TreeLayer {
     const auto x = number(columns_->x), y = number(columns_->y);
     if (x && y) return add({*x, *y}, sizes);
     const std::string texts = value_of(feature, columns_->x).text + ", " + value_of(feature, columns_->y).text;
-    require_utf8(texts, layer_, source_, encoding_of_trees_option);
+    require_utf8(texts, layer_, source_, encoding_option);
     trees_.note(ProblemCode::unreadable_coordinate, name_, "\"" + texts + "\" are no coordinates");
   }
 
