@@ -8,23 +8,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <ostream>
-#include <string>
 #include <vector>
 
 #include "farlod/angle.hpp"
-#include "horizon/gap_kernels.hpp"
 #include "horizon/kernels.hpp"
 #include "horizon/packet_horizon.hpp"
+#include "tests/runtime/horizon/kernel_targets.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 // The kernels of each target that this processor runs against scalar code, bit for bit.
 
 namespace farlod {
-
-/// GoogleTest finds it beside the type.
-static void PrintTo(const KernelTarget& target, std::ostream* out) { *out << target.name; }
-
 namespace {
 
 using KernelRow = PacketHorizon::Row;
@@ -342,68 +336,7 @@ TEST_P(ScalarKernels, JumpsOfTheSky) {
   EXPECT_GT(found, 0U);
 }
 
-/// What is open in gaps and the choice of facing edges have no scalar version here, but judges in double (gap_sections_test,
-/// silhouette_edges_test), which bound the rounding: between targets, too, not a bit may differ.
-TEST_P(ScalarKernels, OpenGapsAsOnTheBaseline) {
-  const GapKernels& baseline = *runnable_kernels().back().gap;
-  OverhangFacets facets;
-  for (int n = 0; n < 300; ++n) {
-    const HorizonEdge side = random_.edge(60.0, 2.0, 20.0);
-    facets.add({side.a, side.b, random_.edge(60.0, 2.0, 20.0).a});
-  }
-  const ReceiverPacket packet = packet_with(sets_of_normals(random_)[0]);
-  GapBlock block{packet.x, packet.y, packet.z, packet.normal_x, packet.normal_y, packet.normal_z, {}, {}, {}, {}, {}, {}, {}, {}};
-  for (std::size_t l = 0; l < lanes; ++l) {
-    block.cosine[l] = azimuths_.cosine()[l / 4];
-    block.sine[l] = azimuths_.sine()[l / 4];
-    block.to[l] = random_.between(0.3, 3.0);
-  }
-  GapBlock expected = block;
-  std::vector<PacketHorizon::Row> room(2 * (facets.size() + 1));
-  int open = 0;
-  for (const bool is_solid : {false, true}) {
-    GetParam().gap->find_open({facets.batches(), facets.boxes()}, is_solid, room.front().data(), block);
-    baseline.find_open({facets.batches(), facets.boxes()}, is_solid, room.front().data(), expected);
-    EXPECT_EQ(block.from, expected.from);
-    EXPECT_EQ(block.to, expected.to);
-    EXPECT_EQ(block.sky, expected.sky);
-    EXPECT_EQ(block.is_split, expected.is_split);
-    for (const float sky : block.sky) open += sky > 0.0F ? 1 : 0;
-  }
-  EXPECT_GT(open, 4) << "too few to tell";
-  LowestOfSectors lowest;
-  const Rows slopes = random_slopes();
-  const float* const horizon = data(slopes);
-  GetParam().gap->find_lowest({&horizon, 1}, azimuths_.view(), lowest);
-  std::vector<std::uint16_t> found(facets.batches().size()), expected_found(found.size());
-  GetParam().gap->find_above({facets.batches(), facets.boxes()}, bounds_of(packet), lowest, found.data());
-  baseline.find_above({facets.batches(), facets.boxes()}, bounds_of(packet), lowest, expected_found.data());
-  EXPECT_EQ(found, expected_found);
-  std::vector<std::int32_t> bins(found.size() * lanes), expected_bins(bins.size());
-  GetParam().gap->find_bins(facets.batches(), bounds_of(packet).box, found.data(), bins.data());
-  baseline.find_bins(facets.batches(), bounds_of(packet).box, found.data(), expected_bins.data());
-  EXPECT_EQ(bins, expected_bins);
-}
-
-TEST_P(ScalarKernels, FacingEdgesAsOnTheBaseline) {
-  const KernelTarget& baseline = runnable_kernels().back();
-  SilhouetteEdges edges;
-  for (int n = 0; n < 1600; ++n) {
-    HorizonEdge e = random_.edge(300.0, -5.0, 40.0);
-    e.adjacent = {static_cast<std::int8_t>(random_.between(-127.0, 127.0)),
-                  static_cast<std::int8_t>(random_.between(-127.0, 127.0))};
-    edges.add(e);
-  }
-  std::vector<float> distances_m(1600), expected_m(1600);
-  const CenteredBox box{3.0F, 4.0F, 10.0F, 20.0F, 1.5F, 9.0F};
-  edge().find_facing({edges.batches(), EdgeRole::grounded}, box, distances_m.data());
-  baseline.edge->find_facing({edges.batches(), EdgeRole::grounded}, box, expected_m.data());
-  EXPECT_EQ(distances_m, expected_m);
-}
-
-std::vector<KernelTarget> all_targets() { return {runnable_kernels().begin(), runnable_kernels().end()}; }
-INSTANTIATE_TEST_SUITE_P(Targets, ScalarKernels, testing::ValuesIn(all_targets()),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Targets, ScalarKernels, testing::ValuesIn(kernel_targets()), name_of_target);
 
 }  // namespace
 }  // namespace farlod
