@@ -72,6 +72,34 @@ TEST(DoubtfulHeights, SmallWholeNumbersAreToldByAnyName) {
   EXPECT_EQ(doubt_about("h", [](int n) { return 2.8 + n % 3; }), "no doubt");
 }
 
+/// A town of up to 9 storeys in a field whose name says nothing.
+TEST(DoubtfulHeights, StoreysAreToldByAnyNameWhereMetresWouldBeTooLow) {
+  constexpr int town = 100;
+  const auto storeys = [](int n) { return n % 20 == 0 ? 2.0 : n % 25 == 3 ? 1.0 : 3.0 + n % 7; };
+  for (const std::string name : {"n_niv", "height"})
+    EXPECT_THAT(doubt_about(name, storeys, named, town),
+                AllOf(HasSubstr(name + " holds whole numbers, of which a typical one is 6, and they were read as metres"),
+                      HasSubstr("are they storeys"), HasSubstr("--storeys-field " + name)));
+  EXPECT_THAT(doubt_about("n_niv", storeys, named, 20), HasSubstr("--storeys-field n_niv"));
+  EXPECT_THAT(doubt_about(
+                  "n_niv", [&](int n) { return storeys(n) + (n == 50 || n == 51 ? 0.5 : 0.0); }, named, town),
+              HasSubstr("--storeys-field n_niv"))
+      << "two attics of 100";
+  EXPECT_EQ(doubt_about(
+                "n_niv", [&](int n) { return storeys(n) + (n % 25 == 10 ? 0.5 : 0.0); }, named, town),
+            "no doubt")
+      << "four fractions of 100";
+}
+
+TEST(DoubtfulHeights, WholeMetresAreNoStoreys) {
+  constexpr int town = 100;
+  const auto in_town = [](const std::function<double(int)>& value_of) { return doubt_about("h", value_of, named, town); };
+  EXPECT_EQ(in_town([](int n) { return 3.0 + n % 7; }), "no doubt") << "houses and garages";
+  EXPECT_EQ(in_town([](int n) { return n < 2 ? 2.0 : 3.0 + n % 7; }), "no doubt") << "two open halls";
+  EXPECT_EQ(in_town([](int n) { return n % 20 == 0 ? 2.0 : 8.0 + n % 9; }), "no doubt") << "a town of 12 m";
+  EXPECT_EQ(in_town([](int n) { return 7.0 + n % 25; }), "no doubt") << "feet";
+}
+
 TEST(DoubtfulHeights, AreasAndOtherNumbersAreTold) {
   EXPECT_THAT(doubt_about("area", [](int n) { return 60.0 + 5.0 * n; }), HasSubstr("as large as the areas of the outlines"));
   // Half of the town would be towers of 130 m and more, on 10 m × 12 m: a street's numbers
