@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,38 +44,46 @@ InputError refusal(const ProblemsRefused& refused, const std::string& report_fil
   return InputError(std::string(refused.what()) + ", and --strict allows none: no package is written; " + list + ".");
 }
 
+std::string file_and_detail(const Problem& p) { return p.source.empty() ? p.detail : p.source + ": " + p.detail; }
+
+/// The doubts of a city that were told before the long work, each by its file and detail.
+using ToldDoubts = std::set<std::string>;
+
 /// What a problem says of whole files, which the count of files does not tell.
-void print_files(const Report& report, ProblemCode code) {
+void print_files(const Report& report, ProblemCode code, const ToldDoubts& told) {
   constexpr std::size_t most_files = 3;
   std::size_t files = 0;
   for (const Problem& p : report.problems())
-    if (p.code == code && p.place == "the whole file" && files++ < most_files)
-      fmt::print("           {}: {}\n", p.source, p.detail);
+    if (p.code == code && p.place == "the whole file" && !told.contains(file_and_detail(p)) && files++ < most_files)
+      fmt::print("           {}\n", file_and_detail(p));
   if (files > most_files) fmt::print("           and {} more files\n", files - most_files);
 }
 
 /// A line for each kind of problem, so that nothing is lost silently; --report has them one by one.
-void print_problems(const Report& report, const std::string& report_file) {
-  std::map<ProblemCode, std::size_t> counts;
-  for (const Problem& p : report.problems()) ++counts[p.code];
+void print_problems(const Report& report, const std::string& report_file, const ToldDoubts& told) {
+  std::map<ProblemCode, std::size_t> counts, told_counts;
+  for (const Problem& p : report.problems()) {
+    ++counts[p.code];
+    if (told.contains(file_and_detail(p))) ++told_counts[p.code];
+  }
   for (const auto& [code, count] : counts) {
     const ProblemDescription& d = describe(code);
-    fmt::print("  {:>6} × {} {}: {} ({})\n", count, static_cast<int>(code), d.slug, d.summary, name_of(d.effect));
-    print_files(report, code);
+    fmt::print("  {:>6} × {} {}: {} ({}{})\n", count, static_cast<int>(code), d.slug, d.summary, name_of(d.effect),
+               told_counts[code] == 0 ? "" : "; doubted above");
+    print_files(report, code, told);
   }
   if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
 }
 
 /// What makes the whole city doubtful, with what would explain it: before the work, which may take hours and be in vain; or with
-/// what ends the run, unless that says it itself.
-void print_doubts(std::FILE* out, const Report& report, std::string_view reason = {}) {
+/// what ends the run, unless that says it itself. Each is told once.
+void print_doubts(std::FILE* out, const Report& report, ToldDoubts& told, std::string_view reason = {}) {
   const auto is_doubt = [](const Problem& p) { return doubts_the_model(p.code); };
   const auto is_said = [&](const Problem& p) { return is_doubt(p) && reason.find(p.detail) != reason.npos; };
   if (std::ranges::any_of(report.problems(), is_said)) return;
   for (const Problem& p : report.problems())
-    if (is_doubt(p))
-      fmt::print(out, "Doubtful ({} {}): {}{}{}\n", static_cast<int>(p.code), describe(p.code).slug, p.source,
-                 p.source.empty() ? "" : ": ", p.detail);
+    if (is_doubt(p) && told.insert(file_and_detail(p)).second)
+      fmt::print(out, "Doubtful ({} {}): {}\n", static_cast<int>(p.code), describe(p.code).slug, file_and_detail(p));
 }
 
 /// What the files hold besides buildings and ground, most of it first.
@@ -176,12 +185,13 @@ void print_contents(const PackResult& result, std::size_t problems) {
   fmt::print(", {} {}\n", problems, problems == 1 ? "problem" : "problems");
 }
 
-void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
+void print_result(const PackResult& result, const Report& report, const PackOptions& options, const ToldDoubts& told,
+                  double seconds) {
   const PackageDescription& m = result.package;
   print_contents(result, report.problems().size());
   if (result.crowns != CrownCounts{} || options.settings.trees.any())
     fmt::print("Crowns: {} of trees, {} of cells of a canopy\n", result.crowns.of_trees, result.crowns.of_canopy);
-  print_problems(report, options.report_file);
+  print_problems(report, options.report_file, told);
   print_left_out(buildings_left_out(report), m.buildings);
   print_skipped(result.skipped);
   print_unused_ground(result.skipped, result.looks);
@@ -204,7 +214,7 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
 /// Shows one progress line for each stage.
 class StageProgress {
  public:
-  explicit StageProgress(Verbosity verbosity) : verbosity_(verbosity) {}
+  StageProgress(Verbosity verbosity, ToldDoubts& told) : verbosity_(verbosity), told_(told) {}
   void update(const Progress& progress) {
     if (progress.stage != stage_ || !line_) {
       line_.reset();
@@ -216,7 +226,7 @@ class StageProgress {
   void show(const PackEstimate& estimate, const Report& report) {
     line_.reset();
     if (verbosity_ == Verbosity::normal) {
-      print_doubts(stdout, report);
+      print_doubts(stdout, report, told_);
       fmt::print("{}\n", estimate_text(estimate));
     }
     std::fflush(stdout);
@@ -224,12 +234,13 @@ class StageProgress {
 
  private:
   Verbosity verbosity_;
+  ToldDoubts& told_;
   std::string stage_;
   std::unique_ptr<ProgressLine> line_;
 };
 
-PackResult pack_as_told(const PackOptions& options, Report& report) {
-  StageProgress progress(options.run.verbosity);
+PackResult pack_as_told(const PackOptions& options, Report& report, ToldDoubts& told) {
+  StageProgress progress(options.run.verbosity, told);
   RunSettings run;
   run.stop = Interruption::token();
   run.threads = thread_count(options.run);
@@ -266,18 +277,19 @@ int run(const PackOptions& options) {
   require_outputs(options);
   const auto start = std::chrono::steady_clock::now();
   Report report;
+  ToldDoubts told;
   std::optional<PackResult> result;
   try {
-    result = pack_as_told(options, report);
+    result = pack_as_told(options, report, told);
   } catch (const std::exception& error) {
     write_report(report, options.report_file);  // what was wrong is wanted most when nothing came of it
-    print_doubts(stderr, report, error.what());
+    print_doubts(stderr, report, told, error.what());
     throw;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_report(report, options.report_file);
   write_text(options.run.summary_file, pack_summary_json(*result, report, seconds, options.run.settings_json));
-  if (options.run.verbosity == Verbosity::normal) print_result(*result, report, options, seconds);
+  if (options.run.verbosity == Verbosity::normal) print_result(*result, report, options, told, seconds);
   return exit_done;
 }
 

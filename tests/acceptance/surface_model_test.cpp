@@ -97,6 +97,15 @@ TEST_F(SurfaceModel, OfOtherUnitsAndQuantitiesIsDoubted) {
   EXPECT_EQ(folder.run("farlod-pack --terrain dsm.asc --crs EPSG:32632 -o b.farlod --strict").exit_code, exit_unusable_input);
 }
 
+/// It was said before the work, and at the end again.
+TEST_F(SurfaceModel, ADoubtIsPrintedOnce) {
+  pack_heights([](Point2d p) { return 0.5 + 0.5 * std::sin(0.1 * p.x) * std::cos(0.1 * p.y); });
+  const std::string all = said(), detail = "dsm.asc: its heights lie between 0.0";
+  EXPECT_EQ(all.find(detail), all.rfind(detail)) << all;
+  EXPECT_THAT(all, testing::HasSubstr("1 × 208 implausible_size: "));
+  EXPECT_THAT(all, testing::HasSubstr("(kept; doubted above)"));
+}
+
 /// They were a pit of 22 m, without a word.
 TEST_F(SurfaceModel, HasNoPitWhereZerosStandForNoData) {
   pack_heights([](Point2d p) {
