@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ import shapely.geometry
 from conftest import SAMPLES
 
 import farlod
+from farlod._program_words import _HEIGHTS, _OTHER_NAMES, _SAME_NAMES, _TREES, words_of_python
 
 HERE = [[550000.0, 5500000.0]]
 LARGE = np.zeros((10_000, 3))
@@ -145,7 +147,7 @@ def test_second_run_names_the_argument(tmp_path: Path) -> None:
 PACKINGS = [
     ("village.obj", {}, 'give crs="EPSG:n"'),
     ("village.gml", dict(out_crs="EPSG:4326"), 'out_crs="EPSG:4326" (WGS 84)'),
-    ("village.geojson", dict(heights="hight"), "as heights.height"),
+    ("village.geojson", dict(heights="hight"), "as heights=farlod.Heights(height=...)"),
     ("village.geojson", dict(heights=dict(default=3.0)), "give a farlod.Heights"),
     ("village.geojson", dict(layer="roads"), "as layer"),
 ]
@@ -207,8 +209,26 @@ def test_what_is_no_package(tmp_path: Path) -> None:
 def test_doubts_of_a_report_name_arguments(tmp_path: Path) -> None:
     houses = [shapely.geometry.box(550000 + 30 * n, 5500000, 550010 + 30 * n, 5500012) for n in range(12)]
     frame = geopandas.GeoDataFrame({"Etagen": [2 + n // 4 for n in range(12)]}, geometry=houses, crs="EPSG:32632")
-    with pytest.warns(farlod.ProblemsWarning, match="the whole file: Etagen holds whole numbers.* Give heights.storeys Etagen"):
+    with pytest.warns(farlod.ProblemsWarning, match="the whole file: Etagen holds whole numbers.* Give heights=farlod"):
         city = farlod.pack(frame, tmp_path / "p.farlod", heights="Etagen")
     [doubt] = [problem for problem in city.report.problems if problem.code == 208]
-    assert "heights.storeys Etagen in place of heights.height" in doubt.detail
+    assert 'Give heights=farlod.Heights(storeys="Etagen") in place of heights=farlod.Heights(height=...)' in doubt.detail
     assert "--" not in doubt.detail
+
+
+@pytest.mark.parametrize("option", [*_HEIGHTS, *_TREES, *_OTHER_NAMES, *_SAME_NAMES])
+def test_what_is_advised_can_be_typed(option: str) -> None:
+    text = words_of_python("--" + option)
+    arguments = eval(f"dict({text})" if "=" in text else f"dict({text}=...)", {"farlod": farlod})  # noqa: S307
+    assert set(arguments) <= set(inspect.signature(farlod.pack).parameters)
+
+
+def test_values_that_are_advised_can_be_typed() -> None:
+    for message, text in (
+        ("Give --height-field height (ft) in place of --storeys-field", 'Give heights=farlod.Heights(height="height (ft)") in place'),
+        ("--terrain-offset -2.9 instead of 5 would", "terrain_offset=-2.9 instead of 5 would"),
+        ("give --up y: it", 'give up="y": it'),
+        ("are they elevations (--canopy-absolute)?", "are they elevations (trees=farlod.Trees(absolute=True))?"),
+        ("--shard 1/2", "--shard 1/2"),
+    ):
+        assert text in words_of_python(message)

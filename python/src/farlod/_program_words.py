@@ -6,32 +6,37 @@ from __future__ import annotations
 
 import re
 
-#: Arguments of farlod.pack() that are not called as the option of farlod-pack is.
-_ARGUMENTS = {
-    "origin": "obj_origin",
-    "height-field": "heights.height",
-    "base-field": "heights.base",
-    "roof-field": "heights.roof",
-    "storeys-field": "heights.storeys",
-    "floor-height": "heights.floor_height",
-    "default-height": "heights.default",
-    "unknown-height": "heights.unknown",
-    "tree-height-field": "trees.height",
-    "crown-field": "trees.crown",
-    "trunk-field": "trees.trunk",
-    "trees-layer": "trees.layer",
-    "canopy": "trees.canopy",
-    "trunk": "trees.canopy_trunk",
-    "canopy-absolute": "trees.absolute",
-    "trunk-ratio": "trees.trunk_ratio",
+#: Fields of farlod.Heights and farlod.Trees, the arguments of farlod.pack() that several options are.
+_HEIGHTS = {
+    "height-field": "height",
+    "base-field": "base",
+    "roof-field": "roof",
+    "storeys-field": "storeys",
+    "floor-height": "floor_height",
+    "default-height": "default",
+    "unknown-height": "unknown",
 }
+_TREES = {
+    "tree-height-field": "height",
+    "crown-field": "crown",
+    "trunk-field": "trunk",
+    "trees-layer": "layer",
+    "canopy": "canopy",
+    "trunk": "canopy_trunk",
+    "canopy-absolute": "absolute",
+    "trunk-ratio": "trunk_ratio",
+}
+_FLAGS = ("canopy-absolute",)
+#: Arguments of farlod.pack() that are not called as the option of farlod-pack is.
+_OTHER_NAMES = {"origin": "obj_origin"}
 _SAME_NAMES = (
     "align area assign cell crs encoding far-map far-terrain ground-names layer lod max-error memory-limit neighborhood out-crs "
     "surface terrain terrain-offset threads trees up"
 ).split()
 
-#: Words that an argument is set to.
-_WORDS = "clip|whole|horizon|box|tin"
+#: Words and numbers that an argument is set to.
+_WORDS = r"(?:(?:EPSG|OGC):\w+|clip|whole|horizon|box|tin|[yz])\b"
+_NUMBERS = r"-?\d+(?:\.\d+)?\b"
 
 #: What a file of this ending holds, where it was written of what a caller gave.
 _GIVEN = {"gpkg": "the GeoDataFrame", "tif": "the DataArray", "obj": "the mesh"}
@@ -49,20 +54,27 @@ def _with_what_was_given(message: str, folder: str) -> str:
     return re.sub(re.escape(folder) + file, given, message)
 
 
+def _argument(option: str, value: str | None) -> str | None:
+    """What a caller of farlod.pack() types for an option of farlod-pack."""
+    for group, fields in (("heights=farlod.Heights", _HEIGHTS), ("trees=farlod.Trees", _TREES)):
+        if option in fields:
+            return f"{group}({fields[option]}={value or ('True' if option in _FLAGS else '...')})"
+    name = _OTHER_NAMES.get(option) or (option.replace("-", "_") if option in _SAME_NAMES else None)
+    return f"{name}={value}" if name and value else name
+
+
 def words_of_python(message: str) -> str:
     """``message`` with the arguments of farlod.pack() in place of the options of farlod-pack."""
-    names = {**{name: name.replace("-", "_") for name in _SAME_NAMES}, **_ARGUMENTS}
 
     def argument(match: re.Match[str]) -> str:
-        name = names.get(match["option"])
-        if name is None:
-            return match[0]
-        value = match["epsg"] or match["word"]
-        return ("farlod.pack with " if match["program"] else "") + (f'{name}="{value}"' if value else name)
+        word = match["word"] or match["field"]
+        text = _argument(match["option"], f'"{word}"' if word else match["number"])
+        return match[0] if text is None else ("farlod.pack with " if match["program"] else "") + text
 
     text = message.replace("--force", "overwrite=True").replace(" for -o", " for path")
     option = r"(?P<program>farlod-pack )?(?<![\w-])--(?P<option>[a-z]+(?:-[a-z]+)*)"
-    return re.sub(option + rf"(?: (?P<epsg>EPSG:\w+)|(?: (?P<word>{_WORDS})\b))?", argument, text)
+    value = rf"(?P<word>{_WORDS})|(?P<number>{_NUMBERS})|(?P<field>(?<=-field )(?!or\b)[^,;:]+?)(?= in place of )"
+    return re.sub(rf"{option}(?: (?:{value}))?", argument, text)
 
 
 def in_python(message: str, folder: str) -> str:
