@@ -41,15 +41,26 @@ std::vector<Point2d> places_of(const NamedPoints& named) {
   return places;
 }
 
-/// Points that cannot be projected lose their place, and are counted; all of them are refused.
+/// Throws PointsError where no point of a file can be projected.
+void require_some_projected([[maybe_unused]] const NamedPoints& named, [[maybe_unused]] const std::string& crs,
+                            [[maybe_unused]] const SvfOptions& options, [[maybe_unused]] const PackageDescription& package) {
+#ifdef FARLOD_WITH_GDAL
+  const std::vector<Point2d> given = places_of_rows(named, placed_rows(named));
+  const std::vector<Point2d> moved = gdal_files().reprojected_each(given, crs, package.crs_wkt);
+  if (std::ranges::all_of(moved, [](Point2d p) { return std::isnan(p.x); }))
+    (void)gdal_files().reprojected_of_file(given, crs, package.crs_wkt,
+                                           {options.points_file, advice_on_points_crs(!options.points_crs.empty())});
+#endif
+}
+
+/// Points that cannot be projected lose their place, and are counted.
 void move_to_package_crs(NamedPoints& named, const std::string& crs, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
   const std::vector<std::size_t> placed = placed_rows(named);
   const std::vector<Point2d> given = places_of_rows(named, placed);
-  std::vector<Point2d> moved = gdal_files().reprojected_each(given, crs, package.crs_wkt);
+  const std::vector<Point2d> moved = gdal_files().reprojected_each(given, crs, package.crs_wkt);
   const auto is_lost = [](Point2d p) { return std::isnan(p.x); };
   const auto lost = static_cast<std::size_t>(std::ranges::count_if(moved, is_lost));
-  if (lost == moved.size()) moved = gdal_files().reprojected(given, crs, package.crs_wkt);  // throws where there are any
   for (std::size_t k = 0; k < placed.size(); ++k)
     std::tie(named.x_m[placed[k]], named.y_m[placed[k]]) = std::pair(moved[k].x, moved[k].y);
   if (lost == 0) return;
@@ -305,7 +316,10 @@ NamedPoints requested_points(const SvfOptions& options, const PackageDescription
   NamedPoints named(std::move(read));
   const std::vector<Point2d> given = places_of(named);
   const Point2d first = first_of(named);
-  if (!crs.empty()) move_to_package_crs(named, crs, package);
+  if (!crs.empty()) {
+    require_some_projected(named, crs, options, package);
+    move_to_package_crs(named, crs, package);
+  }
   named = near_city(std::move(named), {!crs.empty(), true, first}, package);
   const Point2d first_m = first_of(named);
   const bool were_degrees = crs.empty() && (first_m.x != first.x || first_m.y != first.y);

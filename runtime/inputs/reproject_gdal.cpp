@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/lower_case.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "inputs/requested_points.hpp"
 
@@ -29,7 +30,17 @@ std::string name_of(const std::string& definition, const OGRSpatialReference& cr
   return definition.find('[') == std::string::npos || crs.GetName() == nullptr ? definition : crs.GetName();
 }
 
-std::string text_of(Point2d p) { return fmt::format("({}, {})", p.x, p.y); }
+std::string text_of_refused(std::span<const Point2d> points, std::size_t refused, const std::string& from_crs) {
+  return fmt::format("point {} at ({}, {}) cannot be projected from {}", refused + 1, points[refused].x, points[refused].y,
+                     name_of(from_crs, crs_called(from_crs)));
+}
+
+/// Whether a CRS is that of RFC 7946, by the file's own word or silence.
+bool is_of_geojson(const std::filesystem::path& file, const std::string& crs) {
+  const std::string ending = lower_case(file.extension().string());
+  const bool is_geojson = ending == ".geojson" || ending == ".geojsonl" || ending == ".json";
+  return is_geojson && name_of(crs, crs_called(crs)) == "WGS 84";
+}
 
 }  // namespace
 
@@ -77,12 +88,26 @@ std::vector<Point2d> reprojected_each(std::span<const Point2d> points, const std
 }
 
 std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs) {
-  const Reprojection reprojection(from_crs, to_crs);
   std::vector<Point2d> projected(points.begin(), points.end());
-  const auto refused = reprojection.apply(projected);
+  if (const auto refused = Reprojection(from_crs, to_crs).apply(projected))
+    throw PointsError(text_of_refused(points, *refused, from_crs) +
+                      "; x is the longitude or easting, y the latitude or northing");
+  return projected;
+}
+
+std::vector<Point2d> reprojected_of_file(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs,
+                                         const PlacesOfFile& places) {
+  std::vector<Point2d> projected(points.begin(), points.end());
+  const auto refused = Reprojection(from_crs, to_crs).apply(projected);
   if (!refused) return projected;
-  throw PointsError("point " + std::to_string(*refused + 1) + " at " + text_of(points[*refused]) + " cannot be projected from " +
-                    name_of(from_crs, crs_called(from_crs)) + "; x is the longitude or easting, y the latitude or northing");
+  const char* of_geojson =
+      is_of_geojson(places.file, from_crs) ? " (degrees), the CRS of GeoJSON that names none (RFC 7946)" : "";
+  throw PointsError(places.file.string() + ": " + text_of_refused(points, *refused, from_crs) + of_geojson + ": " +
+                    places.advice);
+}
+
+std::string advice_to_say_crs(const std::filesystem::path& file) {
+  return "say the CRS of its coordinates, by ogr2ogr -a_srs EPSG:n NEW.gpkg " + file.string();
 }
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,6 +36,21 @@ class Reprojection {
 /// Throws PointsError when a CRS is not known or a point cannot be projected; it names the point by its number from 1.
 [[nodiscard]] std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs,
                                                const std::string& to_crs);
+/// A file of places, and what to do where they are in another CRS than it says.
+struct PlacesOfFile {
+  std::filesystem::path file;
+  std::string advice;
+};
+/// The same of places of a file: names it, says where its CRS is that of GeoJSON without one, and gives the advice.
+[[nodiscard]] std::vector<Point2d> reprojected_of_file(std::span<const Point2d> points, const std::string& from_crs,
+                                                       const std::string& to_crs, const PlacesOfFile& places);
+/// What to do where --points-crs names the CRS of places, or might.
+[[nodiscard]] inline const char* advice_on_points_crs(bool is_given) {
+  return is_given ? "check --points-crs, and that x is the longitude or easting"
+                  : "name the CRS of its coordinates by --points-crs EPSG:n";
+}
+/// What to do where no option names the CRS of a file.
+[[nodiscard]] std::string advice_to_say_crs(const std::filesystem::path& file);
 /// The same, but points that cannot be projected become NaN.
 [[nodiscard]] std::vector<Point2d> reprojected_each(std::span<const Point2d> points, const std::string& from_crs,
                                                     const std::string& to_crs);

@@ -222,8 +222,8 @@ class WalkAlong {
 /// Places points along the lines of one layer.
 class LineReader {
  public:
-  LineReader(const OpenLayer& open, const LineSampling& sampling, std::string crs)
-      : open_(open), sampling_(sampling), crs_(std::move(crs)), fields_(fields_of(open.layer())) {
+  LineReader(const OpenLayer& open, const LineSampling& sampling, std::string crs, PlacesOfFile places)
+      : open_(open), sampling_(sampling), crs_(std::move(crs)), places_(std::move(places)), fields_(fields_of(open.layer())) {
     std::vector<std::string> names;
     for (const Field& field : fields_) names.push_back(free_name(field.name));
     names.emplace_back(along);
@@ -260,7 +260,7 @@ class LineReader {
   void take(const OGRLineString& line, std::vector<std::string>& values) {
     std::vector<Point2d> places;
     for (int n = 0; n < line.getNumPoints(); ++n) places.push_back({line.getX(n), line.getY(n)});
-    if (!crs_.empty()) places = reprojected(places, crs_, sampling_.package_crs);
+    if (!crs_.empty()) places = reprojected_of_file(places, crs_, sampling_.package_crs, places_);
     const double length_m = length_of(places);
     if (!(length_m > 0.0) || !std::isfinite(length_m)) return;
     const auto count = static_cast<std::size_t>(std::ceil(length_m / sampling_.spacing_m));
@@ -281,6 +281,7 @@ class LineReader {
   const OpenLayer& open_;
   const LineSampling& sampling_;
   std::string crs_;
+  PlacesOfFile places_;
   std::vector<Field> fields_;
   RequestedPoints result_;
 };
@@ -342,7 +343,8 @@ std::optional<Attributes> read_table_gdal(const std::filesystem::path& path, con
 RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::string& layer_name, const LineSampling& sampling) {
   const OpenLayer open(path, layer_name);
   const std::string own = crs_of(open.layer());
-  RequestedPoints read = LineReader(open, sampling, sampling.crs.empty() ? own : sampling.crs).read();
+  const bool says_crs = !sampling.crs.empty();
+  RequestedPoints read = LineReader(open, sampling, says_crs ? sampling.crs : own, {path, advice_on_points_crs(says_crs)}).read();
   open.require_all_read();
   require_any(read, path, "lines", "one; give lines, such as the axes of streets");
   if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "line"));
@@ -363,7 +365,7 @@ Region read_region_gdal(const std::filesystem::path& path, const std::string& pa
     Rings rings = rings_of(*layer);
     const std::string crs = wkt_of(layer->GetSpatialRef());
     if (!crs.empty())
-      for (Region::Ring& ring : rings) ring = reprojected(ring, crs, package_crs);
+      for (Region::Ring& ring : rings) ring = reprojected_of_file(ring, crs, package_crs, {path, advice_to_say_crs(path)});
     all.insert(all.end(), std::make_move_iterator(rings.begin()), std::make_move_iterator(rings.end()));
   }
   if (messages.any()) throw PointsError(path.string() + " cannot be read to its end (" + messages.last() + ")");

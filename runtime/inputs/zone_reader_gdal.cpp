@@ -108,7 +108,9 @@ class LayerOfZones {
     bool all = rings_.take(*polygon.getExteriorRing(), false, result.shell);
     for (int n = 0; n < polygon.getNumInteriorRings(); ++n)
       all = rings_.take(*polygon.getInteriorRing(n), true, result.holes.emplace_back()) && all;
-    if (!all) refuse(feature, "lies where the CRS of the package has no coordinates: choose those near the city");
+    if (!all)
+      refuse(feature,
+             "lies where the CRS of the package has no coordinates: choose those near the city, or " + advice_to_say_crs(file_));
     return result;
   }
 

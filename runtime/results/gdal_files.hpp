@@ -25,6 +25,7 @@ struct GdalFiles {
   MakeRasterWriter geotiff, netcdf, zarr, zipped_geotiffs;
   MakeFeatureWriter geopackage, flatgeobuf, netcdf_points, geojson;
 
+  decltype(&farlod::advice_to_say_crs) advice_to_say_crs;
   decltype(&farlod::esri_wkt_of) esri_wkt_of;
   decltype(&farlod::is_raster_file) is_raster_file;
   decltype(&farlod::is_vector_file) is_vector_file;
@@ -37,6 +38,7 @@ struct GdalFiles {
   decltype(&read_zones_gdal) read_zones;
   decltype(&farlod::reprojected) reprojected;
   decltype(&farlod::reprojected_each) reprojected_each;
+  decltype(&farlod::reprojected_of_file) reprojected_of_file;
 };
 
 /// Loads the module at the first call. Throws InputError where it is missing.

@@ -17,6 +17,7 @@ constexpr GdalFiles functions{.geotiff = geotiff_writer,
                               .flatgeobuf = flatgeobuf_writer,
                               .netcdf_points = netcdf_point_writer,
                               .geojson = geojson_writer,
+                              .advice_to_say_crs = advice_to_say_crs,
                               .esri_wkt_of = esri_wkt_of,
                               .is_raster_file = is_raster_file,
                               .is_vector_file = is_vector_file,
@@ -28,7 +29,8 @@ constexpr GdalFiles functions{.geotiff = geotiff_writer,
                               .read_table = read_table_gdal,
                               .read_zones = read_zones_gdal,
                               .reprojected = reprojected,
-                              .reprojected_each = reprojected_each};
+                              .reprojected_each = reprojected_each,
+                              .reprojected_of_file = reprojected_of_file};
 
 }  // namespace
 }  // namespace farlod

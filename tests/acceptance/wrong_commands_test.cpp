@@ -28,6 +28,11 @@ std::string streets_geojson() {
          R"("geometry":{"type":"Polygon","coordinates":[[[9,49],[9.0001,49],[9.0001,49.0001],[9,49]]]}}]})";
 }
 
+/// A geometry in the metres of the town without a CRS, as exports have it.
+std::string in_metres(const std::string& type, const std::string& coordinates) {
+  return R"({"type":"Feature","properties":{},"geometry":{"type":")" + type + R"(","coordinates":)" + coordinates + "}}";
+}
+
 /// The files that commands are wrong about: a package, its city, and what people take for a city, a table or a folder of their
 /// own.
 class WrongCommands : public testing::TestWithParam<WrongCommand> {
@@ -44,6 +49,10 @@ class WrongCommands : public testing::TestWithParam<WrongCommand> {
     folder.write("cut.zip", std::string("PK\x03\x04\x14\x00\x00\x00", 8) + std::string(100, '\0'));
     folder.write("points.csv", "x,y\n500030,5500010\n");
     folder.write("streets.geojson", streets_geojson());
+    folder.write("metre.geojson", in_metres("Point", "[500000,5500010]"));
+    folder.write("metres.geojson", in_metres("LineString", "[[500000,5500010],[500090,5500010]]"));
+    folder.write("quarter.geojson",
+                 in_metres("Polygon", "[[[500000,5500010],[500090,5500010],[500090,5500090],[500000,5500010]]]"));
     folder.write("typo.toml", "rayz = 100\n");
     folder.write("far.asc", "ncols 2\nnrows 2\nxllcorner 100000\nyllcorner 200000\ncellsize 1\n1 1\n1 1\n");
   }
