@@ -102,6 +102,10 @@ std::string asked_place(const NamedPoints& named, std::size_t n, const SvfOption
   return given == projected ? given : fmt::format("{} (longitude and latitude of {})", given, projected);
 }
 
+std::string extent_of(const Box2d& box, const PackageDescription& city) {
+  return fmt::format("from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}", box.low.x, box.low.y, box.high.x, box.high.y, city.crs_name);
+}
+
 /// Heights at one place.
 PlanHeights heights_at(const Package& package, Point2d p, std::size_t threads) {
   constexpr double pixel_m = 0.01;
@@ -111,13 +115,17 @@ PlanHeights heights_at(const Package& package, Point2d p, std::size_t threads) {
 }
 
 WhyUnanswered reason_at(const Package& package, const NamedPoints& named, std::size_t n, std::size_t threads) {
+  using enum WhyUnanswered::Place;
   constexpr double least_building_m = 0.1;
   const PlanHeights heights = heights_at(package, {named.x_m[n], named.y_m[n]}, threads);
   const double ground_m = heights.ground_m.front(), highest_m = heights.highest_m.front(), z_m = named.z_m[n];
+  const bool is_in_building = highest_m - ground_m > least_building_m;
   if (z_m < ground_m)
-    return {"below the ground", fmt::format("its height of {:.2f} m is below the ground, which is at {:.2f} m", z_m, ground_m)};
-  if (highest_m - ground_m > least_building_m)
-    return {"inside a building", fmt::format("inside a building, whose top is {:.1f} m above the ground", highest_m - ground_m)};
+    return {"below the ground", fmt::format("its height of {:.2f} m is below the ground, which is at {:.2f} m", z_m, ground_m),
+            is_in_building ? building : open_ground};
+  if (is_in_building)
+    return {"inside a building", fmt::format("inside a building, whose top is {:.1f} m above the ground", highest_m - ground_m),
+            building};
   if (std::isnan(highest_m)) return {"no ground", "there is no ground"};
   const std::string either = "inside a building or below the ground";
   return {either, either};
@@ -129,13 +137,38 @@ void require_any_in_reach(const NamedPoints& named, const SvfOptions& options, c
   const std::vector<std::size_t> beyond = rows_beyond(named, city);
   if (beyond.empty() || !rows_in_reach(named, city).empty()) return;
   if (!lies_on_earth(named, beyond.front())) throw nowhere_on_earth(named, beyond.front());
-  const Box2d& box = city.outline_projected;
   throw NoAnswer(fmt::format(
       "No receiver has an answer, and nothing was written: {} lies more than {:g} m beyond the grid of the city{}. The grid lies "
-      "from {:.0f}, {:.0f} to {:.0f}, {:.0f} in {}: check --{}.",
+      "{}: check --{}.",
       asked_place(named, beyond.front(), options), answered_beyond_grid_m,
-      beyond.size() > 1 ? fmt::format(", as all {} points do", beyond.size()) : "", box.low.x, box.low.y, box.high.x, box.high.y,
-      city.crs_name, option_of_place(options)));
+      beyond.size() > 1 ? fmt::format(", as all {} points do", beyond.size()) : "", extent_of(city.outline_projected, city),
+      option_of_place(options)));
+}
+
+void require_answers_of_points(const NamedPoints& named, const Reasons& reasons, const PointAnswers& answers,
+                               const SvfOptions& options, const PackageDescription& city) {
+  const auto in_reach = [&](const auto& reason) { return is_in_reach(named, reason.first, city); };
+  const auto first = std::ranges::find_if(reasons, in_reach);
+  if (answers.summary.receivers > 0 || first == reasons.end()) return;
+  const auto count = static_cast<std::size_t>(std::ranges::count_if(reasons, in_reach));
+  const auto& [n, why] = *first;
+  const std::string place = asked_place(named, n, options);
+  const std::string what =
+      count == 1 ? place + " has none" : fmt::format("none of {} points has one; the first, {}", count, place);
+  const bool is_outside = !city.city_projected.contains({named.x_m[n], named.y_m[n]});
+  const std::string advice = is_outside ? fmt::format("It lies outside of the city, which lies {}: check --{}",
+                                                      extent_of(city.city_projected, city), option_of_place(options))
+                                        : "Choose other places, or --on-surface";
+  throw NoAnswer(fmt::format("No receiver has an answer, and nothing was written: {} ({}). {}.", what, why.detail, advice));
+}
+
+std::optional<std::string> note_outside_of_grid(const NamedPoints& named, const PointAnswers& answers, const SvfOptions& options,
+                                                const PackageDescription& city) {
+  if (options.source != ReceiverSource::at || answers.summary.outside_of_grid == 0) return std::nullopt;
+  return fmt::format(
+      "{} lies outside of the grid of cells, which lies {}: horizons or rays of the whole city answered it, since only cells "
+      "have far maps.",
+      asked_place(named, 0, options), extent_of(city.outline_projected, city));
 }
 
 std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const PackageDescription& city) {
@@ -149,21 +182,26 @@ std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const
       beyond.size() == 1 ? "has" : "have", named.ids[first], named.x_m[first], named.y_m[first]);
 }
 
-std::optional<std::string> note_of_heights(const NamedPoints& named, const PointAnswers& answers,
-                                           const PackageDescription& city) {
+std::size_t count_below_open_ground(const Reasons& reasons) {
+  return static_cast<std::size_t>(
+      std::ranges::count(reasons, WhyUnanswered::Place::open_ground, [](const auto& reason) { return reason.second.place; }));
+}
+
+std::optional<std::string> note_of_heights(const NamedPoints& named, const Reasons& reasons, const PackageDescription& city) {
   if (named.doubtful_z.empty()) return std::nullopt;
-  std::size_t with_height = 0, without_answer = 0;
+  std::size_t in_the_open = 0;
   for (const std::size_t n : rows_in_reach(named, city)) {
-    if (std::isnan(named.z_m[n])) continue;
-    ++with_height;
-    without_answer += std::isnan(answers.svf[n]) ? 1 : 0;
+    const auto reason = reasons.find(n);
+    const bool is_answered = reason == reasons.end();
+    if (!std::isnan(named.z_m[n]) && (is_answered || reason->second.place == WhyUnanswered::Place::open_ground)) ++in_the_open;
   }
-  const std::string below = without_answer == 0 ? ""
-                                                : fmt::format(", where {} of {} points lie below the ground or inside buildings",
-                                                              without_answer, with_height);
+  const std::size_t below = count_below_open_ground(reasons);
   return fmt::format(
       "\"{}\" was taken for an elevation above sea level{}: for heights above ground name it height_above_ground_m.",
-      named.doubtful_z, below);
+      named.doubtful_z,
+      below == 0 ? ""
+                 : fmt::format(", where {} of {} points outside of buildings {} below the ground", below, in_the_open,
+                               below == 1 ? "lies" : "lie"));
 }
 
 Reasons reasons_of_unanswered(const Package& package, const NamedPoints& named, const PointAnswers& answers,

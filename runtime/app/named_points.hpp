@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ namespace farlod {
 struct WhyUnanswered {
   std::string words;   ///< the same of all such points, without a comma
   std::string detail;  ///< with its heights, where they are looked up
+  /// Where it is in plan, if that was looked up.
+  enum class Place : std::uint8_t { unknown, open_ground, building } place = Place::unknown;
 };
 using Reasons = std::map<std::size_t, WhyUnanswered>;  ///< by the numbers of points
 

@@ -120,7 +120,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   fmt::print("\n");
   print_values(run, quantity_name(asked.weight));
   print_further(written);
-  if (run.outside_of_grid > 0)
+  if (run.outside_of_grid > 0 && options.source != ReceiverSource::at)  // a note tells of that place
     fmt::print("{} around the grid of cells {} answered by horizons or rays of the whole city: only cells have far maps.\n",
                counted(run.outside_of_grid), run.outside_of_grid == 1 ? "was" : "were");
   if (run.without_far_map > 0)

@@ -226,27 +226,34 @@ void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles&
 }
 
 /// What to tell of how the points were read, and of those that have no answer.
-std::vector<std::string> notes_of_points(const NamedPoints& named, const PointAnswers& answers, const PackageDescription& city) {
+std::vector<std::string> notes_of_points(const NamedPoints& named, const Reasons& reasons, const PackageDescription& city) {
   std::vector<std::string> notes = named.notes;
-  for (const auto& note : {note_of_points_beyond(named, city), note_of_heights(named, answers, city)})
+  for (const auto& note :
+       {note_of_points_beyond(named, city), note_of_heights(named, reasons, city), note_of_unanswered(named, reasons, city)})
     if (note) notes.push_back(*note);
   return notes;
 }
 
-/// Adds to the table why points have no answer, and returns all that is to be told.
-std::vector<std::string> notes_with_reasons(const Package& package, const AnswerColumns& columns, const PointAnswers& answers,
-                                            std::size_t threads, NamedPoints& named) {
-  const auto reasons = reasons_of_unanswered(package, named, answers, threads);
-  named.add_reasons(reasons, columns);
-  std::vector<std::string> notes = notes_of_points(named, answers, package.description());
-  if (const auto note = note_of_unanswered(named, reasons, package.description())) notes.push_back(*note);
-  return notes;
+/// Where no point has an answer since its height was taken for another one, that is what to say.
+void require_heights_above_ground(const NamedPoints& named, const Reasons& reasons, const PointAnswers& answers,
+                                  const PackageDescription& city) {
+  if (answers.summary.receivers > 0 || count_below_open_ground(reasons) == 0) return;
+  if (const auto note = note_of_heights(named, reasons, city))
+    throw NoAnswer("No receiver has an answer, and nothing was written: " + *note);
 }
 
-/// Where no point has an answer since its height was taken for another one, that is what to say.
-void require_heights_above_ground(const NamedPoints& named, const PointAnswers& answers, const PackageDescription& city) {
-  const auto note = answers.summary.receivers == 0 ? note_of_heights(named, answers, city) : std::nullopt;
-  if (note) throw NoAnswer("No receiver has an answer, and nothing was written: " + *note);
+/// Adds to the table why points have no answer, and returns all that is to be told. Throws NoAnswer where none has one.
+std::vector<std::string> notes_with_reasons(const Package& package, const PointAnswers& answers, const SvfOptions& options,
+                                            std::size_t threads, const AnswerColumns& columns, NamedPoints& named) {
+  const PackageDescription& city = package.description();
+  const Reasons reasons = reasons_of_unanswered(package, named, answers, threads);
+  require_heights_above_ground(named, reasons, answers, city);
+  require_answers_of_points(named, reasons, answers, options, city);
+  require_answers(answers.summary, options, city);
+  named.add_reasons(reasons, columns);
+  std::vector<std::string> notes = notes_of_points(named, reasons, city);
+  if (auto note = note_outside_of_grid(named, answers, options, city)) notes.push_back(std::move(*note));
+  return notes;
 }
 
 }  // namespace
@@ -320,14 +327,12 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   run.caller_bytes = named.bytes();  // the library counts its answers
   const PointAnswers answers = evaluate_named(package, named, options, run);
   WrittenRun written{answers.summary};
-  written.notes = notes_of_points(named, answers, package.description());
+  written.notes = notes_of_points(named, {}, package.description());
   written.skipped_features = named.skipped_features;
   written.output_bytes = bytes_of_table(*options.format, columns, named.attributes.names().size() + (named.has_normals() ? 2 : 0),
                                         static_cast<double>(named.ids.size()));
   if (!options.writes()) return written;
-  require_heights_above_ground(named, answers, package.description());
-  require_answers(written.summary, options, package.description());
-  written.notes = notes_with_reasons(package, columns, answers, run.threads, named);
+  written.notes = notes_with_reasons(package, answers, options, run.threads, columns, named);
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
   RunHistogram histogram(options);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -78,6 +79,13 @@ std::optional<LightOfSky> light_of_sky(const SvfOptions& options, const Hemisphe
   return light;
 }
 
+[[noreturn]] void refuse_sky(const Package& package, const NamedPoints& named, const SvfOptions& options, std::size_t threads) {
+  PointAnswers none;
+  none.svf = {std::numeric_limits<float>::quiet_NaN()};
+  require_answers_of_points(named, reasons_of_unanswered(package, named, none, threads), none, options, package.description());
+  throw NoAnswer("There is no sky to draw: choose another place.");
+}
+
 }  // namespace
 
 WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run) {
@@ -86,9 +94,7 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
   const Point2d place{named.x_m.front(), named.y_m.front()};
   const std::string coordinates = fmt::format("{:.2f}, {:.2f}", place.x, place.y);
   const auto hemisphere = look_up(package, place, options.at.z, options.placing, options.evaluation, run);
-  if (!hemisphere)
-    throw InputError("There is no sky to draw at " + coordinates +
-                     ": the place lies inside a building, below the ground, or where there is no ground. Choose another.");
+  if (!hemisphere) refuse_sky(package, named, options, run.threads);
   const PackageDescription& city = package.description();
   const std::string crs = city.epsg ? "EPSG:" + std::to_string(*city.epsg) : city.crs_name;
   const SkyCaption caption{quantity_name(options.evaluation.weight),

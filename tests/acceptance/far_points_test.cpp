@@ -192,12 +192,33 @@ TEST_F(HighTown, HeightsOfDoubtfulNamesAreToldForWhatTheyWereTaken) {
   Outcome outcome = heights_called("height_m");
   EXPECT_EQ(outcome.exit_code, exit_done);
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"height_m\" was taken for an elevation above sea level"),
-                                 HasSubstr("where 2 of 2 points lie below the ground or inside buildings"), HasSubstr(advice)));
+                                 HasSubstr("where 2 of 2 points outside of buildings lie below the ground"), HasSubstr(advice)));
   outcome = heights_called("height");
   EXPECT_THAT(outcome.out, HasSubstr("the column \"height\" places no point: name it height_above_ground_m"));
   folder.write("p.csv", "x,y,height_m\n" + text_of(street_crossing) + ",2\n");
   expect_refusal(folder.run("farlod-svf high.farlod -o none.csv --points p.csv"), exit_unusable_input,
-                 {"No receiver has an answer", "where 1 of 1 points lie below the ground", advice});
+                 {"No receiver has an answer", "where 1 of 1 points outside of buildings lies below the ground", advice});
+}
+
+/// Whatever their heights mean: 2 m above the ground there is no answer, either.
+TEST_F(HighTown, PointsInsideOfBuildingsDoNotSpeakForHeightsAboveGround) {
+  const std::string of_house = text_of(p_projected(small_town().front().centre));
+  folder.write("p.csv", "x,y,height_m\n" + of_house + ",2\n" + of_house + ",104\n" + text_of(street_crossing) + ",102\n");
+  Outcome outcome = folder.run("farlod-svf high.farlod -o o.csv --points p.csv");
+  EXPECT_EQ(outcome.exit_code, exit_done);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("\"height_m\" was taken for an elevation above sea level: for heights above"),
+                                 HasSubstr("2 of 3 points have no answer"), HasSubstr("inside a building, whose top is ")));
+  folder.write("p.csv", "x,y,height_m\n" + of_house + ",2\n" + of_house + ",104\n" + text_of(street_crossing) + ",2\n");
+  outcome = folder.run("farlod-svf high.farlod -o none.csv --points p.csv");
+  expect_refusal(outcome, exit_unusable_input, {"where 1 of 1 points outside of buildings lies below the ground"});
+  folder.write("p.csv", "x,y,height_m\n" + of_house + ",104\n");
+  outcome = folder.run("farlod-svf high.farlod -o none.csv --points p.csv");
+  expect_refusal(outcome, exit_unusable_input,
+                 {"point 1 at ", " has none (inside a building, whose top is ", "Choose other places"});
+  EXPECT_THAT(outcome.err, Not(HasSubstr("was taken for an elevation")));
+  folder.write("p.csv", "x,y,height_m\n" + of_house + ",104\n" + of_house + ",105\n");
+  expect_refusal(folder.run("farlod-svf high.farlod -o none.csv --points p.csv"), exit_unusable_input,
+                 {"none of 2 points has one; the first, point 1 at ", " (inside a building, whose top is "});
 }
 
 /// A dry run of fine pixels looks at coarser ones, and tells what the fine ones take.

@@ -106,6 +106,15 @@ TEST_F(SurfaceModel, ADoubtIsPrintedOnce) {
   EXPECT_THAT(all, testing::HasSubstr("(kept; doubted above)"));
 }
 
+/// It said "1 inside buildings or without ground".
+TEST_F(SurfaceModel, APlaceBesideItIsToldWhereTheCityLies) {
+  pack([](Point2d p) { return norm(p) >= 25.0; });
+  for (const std::string output : {"o.csv", "o.svg"})
+    expect_refusal(folder.run("farlod-svf a.farlod --at 500090,5500000 -o " + output), exit_unusable_input,
+                   {"500090, 5500000 has none (there is no ground)", "It lies outside of the city, which lies from 4999",
+                    " in WGS 84 / UTM zone 32N: check --at"});
+}
+
 /// They were a pit of 22 m, without a word.
 TEST_F(SurfaceModel, HasNoPitWhereZerosStandForNoData) {
   pack_heights([](Point2d p) {
@@ -185,7 +194,7 @@ TEST_F(SurfaceModel, WithWallsCoversWholePixels) {
   EXPECT_EQ(table_at(in_corner, "auto").text(0, "svf").empty(), false);
   pack([](Point2d p) { return p.x > 0.0; }, "--surface tin");
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --on-surface --at " + text_of(town_middle + in_corner)),
-                 exit_unusable_input, {"without ground"});
+                 exit_unusable_input, {"there is no ground"});
 }
 
 TEST_F(SurfaceModel, AnswersItsOwnPixelsUnlessOthersAreAskedFor) {

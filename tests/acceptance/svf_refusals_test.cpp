@@ -234,7 +234,8 @@ TEST(SvfWithoutAnAnswer, OfRoofsBesideTheCityIsRefused) {
 }
 
 TEST(SvfWithoutAnAnswer, OfAPointInABuildingIsRefused) {
-  expect_no_answer("-o o.csv --at 500000,5500000", {"1 inside buildings", "--on-surface"});
+  expect_no_answer("-o o.csv --at 500000,5500000",
+                   {"500000, 5500000 has none (inside a building, whose top is 10.0 m above the ground)", "--on-surface"});
 }
 
 }  // namespace
