@@ -149,9 +149,10 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
   if (options.own_pixels) {
     const RasterPlan plan = *plan_of_surface_model(package, extent_of(options));
     notes.push_back(fmt::format(
-        "The city is a raster: its own pixels, {} × {} of {:g} m, are answered. Of what lies around the raster, nothing but a "
-        "--far-terrain is known: at its margin, values are those of an open surrounding.",
-        plan.columns, plan.rows, plan.step_m));
+        "The city is a raster: its own pixels, {} × {} of {:g} m, are answered, {:g} m above its surface (--height). Of what "
+        "lies "
+        "around the raster, nothing but a --far-terrain is known: at its margin, values are those of an open surrounding.",
+        plan.columns, plan.rows, plan.step_m, options.placing.height_m));
     return plan;
   }
   if (options.grid_like.empty()) return plan_raster(package, options.grid_step_m, extent_of(options));

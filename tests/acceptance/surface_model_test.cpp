@@ -200,7 +200,8 @@ TEST_F(SurfaceModel, WithWallsCoversWholePixels) {
 TEST_F(SurfaceModel, AnswersItsOwnPixelsUnlessOthersAreAskedFor) {
   pack([](Point2d p) { return norm(p) >= 25.0; });
   const RasterFile surface = read_raster(folder.path("dsm.asc"));
-  folder.must("farlod-svf a.farlod -o own.tif --height 0.05");
+  EXPECT_THAT(folder.run("farlod-svf a.farlod -o own.tif --height 0.05").out,
+              testing::HasSubstr("are answered, 0.05 m above its surface (--height)"));
   const RasterFile own = read_raster(folder.path("own.tif"));
   ASSERT_EQ(std::pair(own.columns, own.rows), std::pair(surface.columns, surface.rows));
   EXPECT_EQ(own.step_m, surface.step_m);
