@@ -32,10 +32,11 @@ struct Options {
   std::filesystem::path package, weather;
   double latitude_deg = 0.0, longitude_deg = 0.0;
   std::size_t receivers = 200, directions = 20'000, azimuths = 320;
+  std::int64_t judge_step_s = 60;
   std::uint64_t seed = 1;
 };
 
-Light light_of(const Options& options, std::chrono::minutes step) {
+Light light_of(const Options& options, std::chrono::seconds step) {
   const PlaceOnEarth place{Angle::degrees(options.longitude_deg), Angle::degrees(options.latitude_deg)};
   constexpr double linke_turbidity = 3.0;
   const Weather weather = options.weather.empty()
@@ -107,28 +108,42 @@ struct Errors {
 };
 constexpr double something_kwh_m2 = 1.0;
 
+/// Adds an error, and tells one that is larger than `worth_telling`.
+void add_error(const std::string& of_what, double got_kwh_m2, double truth_kwh_m2, double worth_telling,
+               std::vector<double>& errors) {
+  if (truth_kwh_m2 < something_kwh_m2) return;
+  errors.push_back(std::abs(got_kwh_m2 / truth_kwh_m2 - 1.0));
+  if (errors.back() > worth_telling) std::printf("%s: %.2f kWh/m² instead of %.2f\n", of_what.c_str(), got_kwh_m2, truth_kwh_m2);
+}
+
+std::vector<scenes::LightByRays::Months> truths_of(const CellReceivers& cell, const PackageReader& package,
+                                                   const WholeCityOnDemand& city, const scenes::LightByRays& judge) {
+  std::vector<scenes::LightByRays::Months> truths(cell.receivers.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, truths.size(), [&](std::size_t n) {
+    const Receiver& r = cell.receivers[n];
+    truths[n] = judge.on(city.city().scene_from_cell(r.p_cell, cell.cell), {r.normal.x, r.normal.y, r.normal.z},
+                         city.city().occluder(), package.has_crowns() ? &city.crowns({}) : nullptr);
+  });
+  return truths;
+}
+
 void add_errors(const SkyEvaluator& evaluator, const CellReceivers& cell, const WholeCityOnDemand& city,
                 const scenes::LightByRays& judge, Errors& errors) {
   const PackageReader& package = evaluator.package();
   const std::size_t columns = evaluator.further_columns();
   std::vector<float> svf(cell.receivers.size()), values(svf.size() * columns);
   evaluator.evaluate(cell, SkyAnswers(svf, {}, {}, values));
-  std::vector<scenes::LightByRays::Months> truths(svf.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, truths.size(), [&](std::size_t n) {
-    const Receiver& r = cell.receivers[n];
-    truths[n] = judge.on(city.city().scene_from_cell(r.p_cell, cell.cell), {r.normal.x, r.normal.y, r.normal.z},
-                         city.city().occluder(), package.has_crowns() ? &city.crowns({}) : nullptr);
-  });
+  const std::vector<scenes::LightByRays::Months> truths = truths_of(cell, package, city, judge);
   constexpr std::size_t first_month = 4;
+  constexpr double of_year = 0.005, of_month = 0.01;
   for (std::size_t n = 0; n < truths.size(); ++n) {
     const double year = scenes::year_of(truths[n]);
     if (year < something_kwh_m2) continue;
-    const float* const got = &values[n * columns];
-    errors.of_years.push_back(std::abs(got[0] / year - 1.0));
-    if (constexpr double worth_telling = 0.005; errors.of_years.back() > worth_telling)
-      std::printf("%s with svf %.4f: %.2f kWh/m² instead of %.2f\n", place_of(package, cell, n).c_str(), svf[n], got[0], year);
+    const auto got = [&](std::size_t column) { return static_cast<double>(values[n * columns + column]); };
+    const std::string place = place_of(package, cell, n) + " with svf " + std::to_string(svf[n]);
+    add_error(place, got(0), year, of_year, errors.of_years);
     for (std::size_t m = 0; m + first_month < columns; ++m)
-      if (truths[n][m] >= something_kwh_m2) errors.of_months.push_back(std::abs(got[first_month + m] / truths[n][m] - 1.0));
+      add_error(place + ", month " + std::to_string(m + 1), got(first_month + m), truths[n][m], of_month, errors.of_months);
   }
 }
 
@@ -148,8 +163,8 @@ void run(const Options& options) {
   const PackageReader package(options.package);
   const Light light = light_of(options, std::chrono::minutes(5));
   // The sun goes on between its positions: the judge has five times as many, spread over its disk
-  const scenes::LightByRays judge(light_of(options, std::chrono::minutes(1)), options.directions, package.grid().rotation,
-                                  package.manifest().convergence);
+  const scenes::LightByRays judge(light_of(options, std::chrono::seconds(options.judge_step_s)), options.directions,
+                                  package.grid().rotation, package.manifest().convergence);
   const WholeCityOnDemand city(package, {});
   const SkySettings settings{.azimuths = options.azimuths, .further = {.light = light, .irradiation = true}};
   const SkyEvaluator evaluator(package, settings);
@@ -172,6 +187,7 @@ int main(int argc, char** argv) {
   app.add_option("--longitude", options.longitude_deg)->required();
   app.add_option("--receivers", options.receivers)->capture_default_str();
   app.add_option("--directions", options.directions, "Of the sky's light")->capture_default_str();
+  app.add_option("--judge-step", options.judge_step_s, "Between places of the judge's sun, in seconds")->capture_default_str();
   app.add_option("--azimuths", options.azimuths)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);
