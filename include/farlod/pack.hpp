@@ -222,6 +222,8 @@ struct CityLooks {
   struct Ground {
     double low_m = 0.0, high_m = 0.0;  ///< at the buildings; of a relief and of a surface, all of it
     GroundSource source = GroundSource::bases;
+    /// By how much the lowest points of buildings lie above a terrain in their middle, typically; those whose files tell both.
+    std::optional<double> feet_above_m = {};
   };
   std::optional<Point2d> lon_lat_deg;  ///< the middle of the buildings, in WGS 84
   std::string country;                 ///< that the CRS of the package is meant for; empty where it is not for one alone

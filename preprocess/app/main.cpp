@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -29,7 +30,8 @@ namespace {
 
 /// What is told before the long work: a line, rounded to what an estimate can know.
 std::string estimate_text(const PackEstimate& e) {
-  const std::string far_maps = e.far_maps < e.cells ? ", far maps to make for " + with_commas(e.far_maps) : "";
+  const std::string to_make = e.far_maps == 0 ? ", no far maps to make" : ", far maps to make for " + with_commas(e.far_maps);
+  const std::string far_maps = e.far_maps < e.cells ? to_make : "";
   return fmt::format("{} cells{}: about {} from here on, {} of memory, and a package of {}", with_commas(e.cells), far_maps,
                      rough_duration(e.seconds), rough_size(e.memory_mib), rough_size(e.package_mib));
 }
@@ -143,6 +145,13 @@ void print_end(const PackResult& result, const PackOptions& options, double seco
              result.package.triangles, seconds);
 }
 
+/// A terrain of another datum lies above or below where buildings say that they stand.
+std::string text_of_feet(const CityLooks::Ground& ground) {
+  if (!ground.feet_above_m) return "";
+  return fmt::format("; buildings begin {:.1f} m {} it (median)", std::abs(*ground.feet_above_m),
+                     *ground.feet_above_m < 0.0 ? "below" : "above");
+}
+
 /// What a person looks at to see whether it is the right city.
 void print_looks(const CityLooks& looks) {
   if (const auto& p = looks.lon_lat_deg)
@@ -157,16 +166,19 @@ void print_looks(const CityLooks& looks) {
   if (const auto& g = looks.ground; g && g->source == GroundSource::nothing)
     fmt::print("Ground: flat, since neither the files nor a terrain tell it\n");
   else if (g)
-    fmt::print("Ground{}: {:.1f} m to {:.1f} m, from the {}\n", is_surface && looks.heights ? " and roofs" : "", g->low_m,
-               g->high_m, name_of(g->source));
+    fmt::print("Ground{}: {:.1f} m to {:.1f} m, from the {}{}\n", is_surface && looks.heights ? " and roofs" : "", g->low_m,
+               g->high_m, name_of(g->source), text_of_feet(*g));
 }
 
 /// How many buildings are missing; the lines above it say why.
-void print_left_out(std::size_t left_out, std::uint64_t kept) {
-  const auto all = static_cast<double>(left_out + kept);
-  if (left_out > 0)
-    fmt::print("  That is {} of {} buildings left out ({:.1f} %).\n", left_out, left_out + kept,
-               100.0 * static_cast<double>(left_out) / all);
+void print_left_out(const Report& report, std::uint64_t kept) {
+  const std::size_t left_out = buildings_left_out(report);
+  if (left_out == 0) return;
+  const auto lacks_height = [](const Problem& p) { return p.code == ProblemCode::no_height; };
+  const bool is_height = std::ranges::any_of(report.problems(), lacks_height);
+  fmt::print("  That is {} of {} buildings left out ({:.1f} %){}.\n", left_out, left_out + kept,
+             100.0 * static_cast<double>(left_out) / static_cast<double>(left_out + kept),
+             is_height ? "; --default-height keeps footprints without a height" : "");
 }
 
 /// What a city without buildings of its own is made of.
@@ -192,7 +204,7 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   if (result.crowns != CrownCounts{} || options.settings.trees.any())
     fmt::print("Crowns: {} of trees, {} of cells of a canopy\n", result.crowns.of_trees, result.crowns.of_canopy);
   print_problems(report, options.report_file, told);
-  print_left_out(buildings_left_out(report), m.buildings);
+  print_left_out(report, m.buildings);
   print_skipped(result.skipped);
   print_unused_ground(result.skipped, result.looks);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);

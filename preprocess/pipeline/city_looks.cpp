@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,12 +25,16 @@ struct HeightRange {
   [[nodiscard]] bool is_empty() const { return low > high; }
 };
 
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 CityLooks::Heights heights_in(std::vector<double> heights_m) {
   const auto [least, most] = std::minmax_element(heights_m.begin(), heights_m.end());
   const CityLooks::Heights ends{*least, 0.0, *most};
-  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
-  std::nth_element(heights_m.begin(), middle, heights_m.end());
-  return {ends.least_m, *middle, ends.tallest_m};
+  return {ends.least_m, median_of(std::move(heights_m)), ends.tallest_m};
 }
 
 /// A turned raster is read as points.
@@ -37,15 +42,15 @@ bool is_surface(const ReadCity& city) {
   return city.located.city.buildings().empty() && (city.ground.terrain || city.located.sources.empty());
 }
 
+/// Whether a building says at which elevation it stands.
+bool tells_foot(const Building& b) { return b.height_reference == HeightReference::elevation && b.foot != Foot::above_ground; }
+
 GroundSource source_of(const ReadCity& city) {
   if (is_surface(city)) return GroundSource::surface;
   if (city.ground.terrain) return GroundSource::terrain;
   if (!city.located.relief_points.empty()) return GroundSource::relief;
   const auto buildings = city.located.city.buildings();
-  const bool knows_bases = std::any_of(buildings.begin(), buildings.end(), [](const Building& b) {
-    return b.height_reference == HeightReference::elevation && b.foot != Foot::above_ground;
-  });
-  return knows_bases ? GroundSource::bases : GroundSource::nothing;
+  return std::any_of(buildings.begin(), buildings.end(), tells_foot) ? GroundSource::bases : GroundSource::nothing;
 }
 
 std::optional<double> survey_at(const ReadCity& city, Point2d p_city) {
@@ -70,23 +75,32 @@ void look_at_ground(const ReadCity& city, CityLooks& looks) {
   if (!range.is_empty()) looks.ground = CityLooks::Ground{range.low, range.high, source_of(city)};
 }
 
+struct ReachOfBuilding {
+  HeightRange z;
+  Box2d outline;
+};
+ReachOfBuilding reach_of(std::span<const Point3d> points) {
+  ReachOfBuilding reach;
+  for (const Point3d& p : points) {
+    reach.z.add(p.z);
+    reach.outline.add(horizontal(p));
+  }
+  return reach;
+}
+
 /// Goes through the buildings once.
 void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   const CityModel& model = city.located.city;
   const GroundSource source = source_of(city);
-  std::vector<double> heights_m;
+  std::vector<double> heights_m, feet_above_m;
   HeightRange ground;
   model.for_each_building([&](std::size_t, const Building& b) {
-    HeightRange z;
-    Box2d box;
-    for (const Point3d& p : model.points_of(b)) {
-      z.add(p.z);
-      box.add(horizontal(p));
-    }
+    const auto [z, outline] = reach_of(model.points_of(b));
     if (z.is_empty()) return;
-    const auto survey_m = survey_at(city, 0.5 * (box.low + box.high));
+    const auto survey_m = survey_at(city, 0.5 * (outline.low + outline.high));
     if (survey_m) ground.add(*survey_m);
-    if (source == GroundSource::bases && b.foot != Foot::above_ground) ground.add(z.low);
+    if (survey_m && tells_foot(b)) feet_above_m.push_back(z.low - *survey_m);
+    if (source == GroundSource::bases && tells_foot(b)) ground.add(z.low);
     if (b.height_reference != HeightReference::down_to_ground)
       heights_m.push_back(z.high - z.low);
     else if (survey_m && z.high > *survey_m)
@@ -96,6 +110,7 @@ void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   if (!heights_m.empty()) looks.heights = heights_in(std::move(heights_m));
   if (source == GroundSource::nothing) ground.add(0.0);
   if (!ground.is_empty()) looks.ground = CityLooks::Ground{ground.low, ground.high, source};
+  if (looks.ground && !feet_above_m.empty()) looks.ground->feet_above_m = median_of(std::move(feet_above_m));
 }
 
 }  // namespace

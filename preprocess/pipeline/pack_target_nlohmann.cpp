@@ -127,6 +127,7 @@ Json json_of(const CityLooks& l) {
   if (l.lon_lat_deg) j["lon_lat"] = {l.lon_lat_deg->x, l.lon_lat_deg->y};
   if (l.heights) j["heights"] = {l.heights->least_m, l.heights->median_m, l.heights->tallest_m};
   if (l.ground) j["ground"] = {l.ground->low_m, l.ground->high_m, l.ground->source};
+  if (l.ground && l.ground->feet_above_m) j["feet_above"] = *l.ground->feet_above_m;
   return j;
 }
 CityLooks looks_from(const Json& j) {
@@ -136,6 +137,7 @@ CityLooks looks_from(const Json& j) {
   if (const auto h = j.find("heights"); h != j.end()) looks.heights = CityLooks::Heights{h->at(0), h->at(1), h->at(2)};
   if (const auto g = j.find("ground"); g != j.end())
     looks.ground = CityLooks::Ground{g->at(0), g->at(1), g->at(2).get<GroundSource>()};
+  if (const auto f = j.find("feet_above"); f != j.end() && looks.ground) looks.ground->feet_above_m = f->get<double>();
   return looks;
 }
 

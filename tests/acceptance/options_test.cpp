@@ -243,7 +243,7 @@ TEST_F(PackedTown, TellsTheShareOfBuildingsThatAreLeftOut) {
   town.replace(town.find("\"floors\""), 8, "\"storage\"");
   folder.write("holes.geojson", town);
   const std::string out = folder.run("farlod-pack holes.geojson -o b.farlod --summary s.json").out;
-  EXPECT_THAT(out, HasSubstr("That is 1 of 36 buildings left out (2.8 %)."));
+  EXPECT_THAT(out, HasSubstr("That is 1 of 36 buildings left out (2.8 %); --default-height keeps"));
   EXPECT_EQ(folder.json_of("s.json").at("buildings_left_out"), 1);
 }
 
