@@ -136,7 +136,8 @@ void transform(Area& area, const std::string& own_wkt, const Crs& output, const 
     const auto moved = transformation.apply(p);
     if (!moved || !std::isfinite(moved->x) || !std::isfinite(moved->y))
       throw InputError(name + " has a point, " + std::to_string(p.x) + "," + std::to_string(p.y) + " in " + own->crs.name() +
-                       ", that has no place in " + output.name() + ": check its CRS");
+                       ", that has no place in " + output.name() +
+                       ": check its CRS; ogr2ogr -a_srs EPSG:n NEW.gpkg OLD names another one, also where a GeoJSON names none");
     p = *moved;
   });
 }

@@ -355,8 +355,8 @@ std::optional<BlockPlan> PackTarget::plan_of_relief(PackedCity& result) const {
   const bool wants_far_maps = area_ || settings_->choice || settings_->far_map.kind == FarMapKind::box;
   if (wants_far_maps || !package::has_rough_surface(result.manifest)) return std::nullopt;
   result.notes.emplace_back(
-      "Natural relief: rays march over its pixels, and no far maps are made. Bounds, and what hides the sky near and far, come "
-      "from the whole surface, in a tenth of a second a receiver and more; --area makes far maps for them");
+      "A rough surface: rays march over its pixels, and no far maps are made. Bounds, and what hides the sky near and far, alone "
+      "take a tenth of a second a receiver and more, since they come from the whole surface; --area makes far maps for them");
   return plan_none(result.manifest.grid, existing());
 }
 

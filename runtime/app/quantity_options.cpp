@@ -134,7 +134,9 @@ CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
     throw CLI::ValidationError("--transmissivity", "--canopy-rule beer counts lengths within crowns: give --extinction");
   if (raw.extinction_per_m && !is_beer) throw CLI::ValidationError("--extinction", "it goes with --canopy-rule beer");
   if (!(canopy == CanopySettings{}) && !knows_trees)
-    throw CLI::ValidationError("--canopy-rule",
+    throw CLI::ValidationError(raw.leaf_off         ? "--leaf-off"
+                               : raw.transmissivity ? "--transmissivity"
+                                                    : "--canopy-rule",
                                "this run computes nothing of trees: add --quantity " + words_that(is_of_crowns, " or "));
   return canopy;
 }

@@ -156,7 +156,8 @@ class UnreadRows {
     const std::string lines = count_ == 1 ? "" : " (lines " + lines_ + (count_ > lines_named ? ", …)" : ")");
     if (10 * count_ > rows)
       throw PointsError(std::string(first_->what()) + "; rows that cannot be read: " + std::to_string(count_) + " of " +
-                        std::to_string(rows) + lines + "; up to a tenth of the rows may be left out");
+                        std::to_string(rows) + lines +
+                        "; mend them, or leave them out: up to a tenth of the rows are left out without");
     points.skipped_features = count_;
     points.notes.push_back(std::string(first_->what()) + ". " + std::to_string(count_) + " of " + std::to_string(rows) +
                            " rows cannot be read and " + (count_ == 1 ? "has" : "have") + " no answer" + lines + ".");

@@ -253,7 +253,8 @@ TEST_F(TreeTown, OptionsThatDoNotFitAreRefused) {
   refused("--quantity svf_total --canopy-rule beer --transmissivity 0.1", {"--transmissivity", "--extinction"});
   refused("--quantity svf_total --extinction 0.1", {"--extinction", "--canopy-rule beer"});
   refused("--quantity svf_total --canopy-rule often", {"--canopy-rule"});
-  refused("--leaf-off", {"nothing of trees", "--quantity svf_total"});
+  refused("--leaf-off", {"--leaf-off: this run computes nothing of trees", "--quantity svf_total"});
+  refused("--transmissivity 0.1", {"--transmissivity: this run computes nothing of trees"});
   refused("--sky solid --quantity svf_total", {"--quantity", "--sky solid"});
 }
 

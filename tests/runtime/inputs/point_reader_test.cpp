@@ -95,7 +95,7 @@ TEST(PointReader, AzimuthAndTiltAreANormal) {
 TEST(PointReader, TheRowsOfARefusedTableAreCounted) {
   EXPECT_THAT(complaint_about("lon,lat\n1,1\nfoo,2\nbar,3\n"),
               AllOf(HasSubstr("points.csv:3: \"foo\" is not a number (lon)"),
-                    HasSubstr("cannot be read: 2 of 3 (lines 3, 4); up to a tenth of the rows may be left out")));
+                    HasSubstr("cannot be read: 2 of 3 (lines 3, 4); mend them, or leave them out")));
 }
 
 TEST(PointReader, DegreesComeBackBesideTheMetresOfAnswers) {
