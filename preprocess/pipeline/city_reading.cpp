@@ -103,7 +103,7 @@ class CityReading {
     read_.far_terrain_files = std::move(files_.far_terrain.files);
     if (const auto& terrain = read_.ground.terrain) {
       read_.notes.insert(read_.notes.end(), terrain->notes.begin(), terrain->notes.end());
-      if (!read_.located.city.buildings().empty()) note_share(covered_share(*terrain, read_.ground.grid));
+      if (!read_.located.city.buildings().empty()) note_share(*terrain);
     }
     return std::move(read_);
   }
@@ -129,13 +129,26 @@ class CityReading {
   }
 
   /// What is missing at the rim of the outermost cells is not worth a word.
-  void note_share(double share) {
+  void note_share(const TerrainRaster& terrain) {
     constexpr double all_but_a_rim = 0.95;
+    const double share = covered_share(terrain, read_.ground.grid);
     if (share >= all_but_a_rim) return;
+    const std::size_t all = read_.located.city.buildings().size(), on_it = count_buildings_on(terrain);
+    const std::string below = on_it == all ? "all buildings" : fmt::format("{} of {} buildings", on_it, all);
     read_.notes.push_back(
-        fmt::format("The terrain has heights for {:.0f} % of the grid; elsewhere the ground is as high as the "
-                    "nearest of them: --terrain takes several files",
-                    100.0 * share));
+        fmt::format("The terrain has heights below {}, and for {:.0f} % of the grid; elsewhere the ground is as high as the "
+                    "nearest of them{}",
+                    below, 100.0 * share, on_it == all ? "" : ": --terrain takes several files"));
+  }
+  [[nodiscard]] std::size_t count_buildings_on(const TerrainRaster& terrain) const {
+    std::size_t count = 0;
+    const CityModel& city = read_.located.city;
+    city.for_each_building([&](std::size_t, const Building& b) {
+      Box2d outline;
+      for (const Point3d& p : city.points_of(b)) outline.add(horizontal(p));
+      if (!outline.empty() && terrain.height_at(0.5 * (outline.low + outline.high))) ++count;
+    });
+    return count;
   }
 
   void locate(std::vector<SourceCity> sources) {

@@ -89,7 +89,7 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->type_name(file_value);
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
       ->check(one_of(surface_choice_words));
-  receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
+  receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS, or in degrees");
   receivers->require_option(0, 1);
 }
 

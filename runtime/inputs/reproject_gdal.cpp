@@ -17,9 +17,11 @@ namespace {
 
 OGRSpatialReference crs_called(const std::string& definition) {
   OGRSpatialReference crs;
-  if (crs.SetFromUserInput(definition.c_str()) != OGRERR_NONE)
+  if (crs.SetFromUserInput(definition.c_str()) != OGRERR_NONE) {
+    const bool is_code = !definition.empty() && definition.find_first_not_of("0123456789") == std::string::npos;
     throw PointsError("the coordinate reference system of the points, \"" + definition +
-                      "\", is not known; name it like EPSG:4326");
+                      "\", is not known; name it like EPSG:" + (is_code ? definition : "32632"));
+  }
   if (crs.IsCompound() != 0) crs.StripVertical();  // heights are never shifted
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return crs;

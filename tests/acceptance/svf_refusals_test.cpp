@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
                                          unusable_points("PolygonsForPoints", "town.geojson",
                                                          {"town.geojson", "holds no points"}),
                                          unusable_points("UnknownPointsCrs", "pole.csv --points-crs EPSG:99999",
-                                                         {"EPSG:99999", "not known", "EPSG:4326"})),
+                                                         {"EPSG:99999", "not known", "EPSG:32632"})),
                          name_of_refused);
 #endif
 
