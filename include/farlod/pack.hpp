@@ -216,18 +216,18 @@ enum class GroundSource : std::uint8_t {
 /// Where a city lies and how high it is: what a person looks at to see whether it is the right one.
 struct CityLooks {
   struct Heights {
-    /// From the lowest point of a building to its highest; of a raster that is the city, of the walls between its pixels.
     double least_m = 0.0, median_m = 0.0, tallest_m = 0.0;
   };
   struct Ground {
     double low_m = 0.0, high_m = 0.0;  ///< at the buildings; of a relief and of a surface, all of it
     GroundSource source = GroundSource::bases;
-    /// By how much the lowest points of buildings lie above a terrain in their middle, typically; those whose files tell both.
-    std::optional<double> feet_above_m = {};
+    /// By how much the lowest points of buildings lie above a terrain in their middle; of those whose files tell both.
+    std::optional<Heights> feet_above_m = {};
   };
   std::optional<Point2d> lon_lat_deg;  ///< the middle of the buildings, in WGS 84
   std::string country;                 ///< that the CRS of the package is meant for; empty where it is not for one alone
-  std::optional<Heights> heights;      ///< none without buildings and walls
+  /// From the lowest point of a building to its highest; of a raster that is the city, of the walls between its pixels.
+  std::optional<Heights> heights;  ///< none without buildings and walls
   std::optional<Ground> ground;
 };
 

@@ -148,8 +148,11 @@ void print_end(const PackResult& result, const PackOptions& options, double seco
 /// A terrain of another datum lies above or below where buildings say that they stand.
 std::string text_of_feet(const CityLooks::Ground& ground) {
   if (!ground.feet_above_m) return "";
-  return fmt::format("; buildings begin {:.1f} m {} it (median)", std::abs(*ground.feet_above_m),
-                     *ground.feet_above_m < 0.0 ? "below" : "above");
+  const auto text = [](double above_m) {
+    return fmt::format("{:.1f} m {}", std::abs(above_m), above_m < 0.0 ? "below" : "above");
+  };
+  const auto& [lowest_m, median_m, highest_m] = *ground.feet_above_m;
+  return fmt::format("; buildings begin {} it (median; from {} to {})", text(median_m), text(lowest_m), text(highest_m));
 }
 
 /// What a person looks at to see whether it is the right city.

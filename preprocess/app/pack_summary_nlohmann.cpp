@@ -72,7 +72,9 @@ Json json_of(const CityLooks& l) {
   if (l.heights)
     j["heights_m"] = {{"least", l.heights->least_m}, {"median", l.heights->median_m}, {"tallest", l.heights->tallest_m}};
   if (l.ground) j["ground_m"] = {{"low", l.ground->low_m}, {"high", l.ground->high_m}, {"from", name_of(l.ground->source)}};
-  if (l.ground && l.ground->feet_above_m) j["ground_m"]["buildings_above"] = *l.ground->feet_above_m;
+  if (l.ground && l.ground->feet_above_m)
+    j["ground_m"]["buildings_above"] = {l.ground->feet_above_m->least_m, l.ground->feet_above_m->median_m,
+                                        l.ground->feet_above_m->tallest_m};
   return j;
 }
 

@@ -25,16 +25,12 @@ struct HeightRange {
   [[nodiscard]] bool is_empty() const { return low > high; }
 };
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 CityLooks::Heights heights_in(std::vector<double> heights_m) {
   const auto [least, most] = std::minmax_element(heights_m.begin(), heights_m.end());
   const CityLooks::Heights ends{*least, 0.0, *most};
-  return {ends.least_m, median_of(std::move(heights_m)), ends.tallest_m};
+  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
+  return {ends.least_m, *middle, ends.tallest_m};
 }
 
 /// A turned raster is read as points.
@@ -110,7 +106,7 @@ void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   if (!heights_m.empty()) looks.heights = heights_in(std::move(heights_m));
   if (source == GroundSource::nothing) ground.add(0.0);
   if (!ground.is_empty()) looks.ground = CityLooks::Ground{ground.low, ground.high, source};
-  if (looks.ground && !feet_above_m.empty()) looks.ground->feet_above_m = median_of(std::move(feet_above_m));
+  if (looks.ground && !feet_above_m.empty()) looks.ground->feet_above_m = heights_in(std::move(feet_above_m));
 }
 
 }  // namespace

@@ -122,22 +122,25 @@ ChosenGrid chosen_from(const Json& j) {
 Json json_of(const PackEstimate& e) { return {e.cells, e.far_maps, e.seconds, e.memory_mib, e.package_mib, e.least_memory_mib}; }
 PackEstimate estimate_from(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), j.at(5)}; }
 
+Json json_of(const CityLooks::Heights& h) { return {h.least_m, h.median_m, h.tallest_m}; }
+CityLooks::Heights heights_from(const Json& j) { return {j.at(0), j.at(1), j.at(2)}; }
+
 Json json_of(const CityLooks& l) {
   Json j = {{"country", l.country}};
   if (l.lon_lat_deg) j["lon_lat"] = {l.lon_lat_deg->x, l.lon_lat_deg->y};
-  if (l.heights) j["heights"] = {l.heights->least_m, l.heights->median_m, l.heights->tallest_m};
+  if (l.heights) j["heights"] = json_of(*l.heights);
   if (l.ground) j["ground"] = {l.ground->low_m, l.ground->high_m, l.ground->source};
-  if (l.ground && l.ground->feet_above_m) j["feet_above"] = *l.ground->feet_above_m;
+  if (l.ground && l.ground->feet_above_m) j["feet_above"] = json_of(*l.ground->feet_above_m);
   return j;
 }
 CityLooks looks_from(const Json& j) {
   CityLooks looks;
   looks.country = j.at("country");
   if (const auto p = j.find("lon_lat"); p != j.end()) looks.lon_lat_deg = Point2d{p->at(0), p->at(1)};
-  if (const auto h = j.find("heights"); h != j.end()) looks.heights = CityLooks::Heights{h->at(0), h->at(1), h->at(2)};
+  if (const auto h = j.find("heights"); h != j.end()) looks.heights = heights_from(*h);
   if (const auto g = j.find("ground"); g != j.end())
     looks.ground = CityLooks::Ground{g->at(0), g->at(1), g->at(2).get<GroundSource>()};
-  if (const auto f = j.find("feet_above"); f != j.end() && looks.ground) looks.ground->feet_above_m = f->get<double>();
+  if (const auto f = j.find("feet_above"); f != j.end() && looks.ground) looks.ground->feet_above_m = heights_from(*f);
   return looks;
 }
 

@@ -67,7 +67,8 @@ TEST_F(DoubtfulTerrain, AnOffsetIsProposedInPlaceOfTheGivenOne) {
   EXPECT_THAT(outcome.out, HasSubstr("--terrain-offset 2.9 instead of -5 would raise the terrain to them"));
   // Too little for a doubt: floors of cellars lie as deep
   const Outcome cellars = folder.run("farlod-pack " + houses + " -o a.farlod --force --terrain plain.asc --terrain-offset 4.9");
-  EXPECT_THAT(cellars.out, HasSubstr("from the terrain; buildings begin 2.0 m below it (median)"));
+  EXPECT_THAT(cellars.out,
+              HasSubstr("from the terrain; buildings begin 2.0 m below it (median; from 2.0 m below to 2.0 m below)"));
 }
 
 TEST_F(DoubtfulTerrain, ASurfaceModelIsNoCanopy) {
