@@ -41,18 +41,6 @@ std::vector<Point2d> places_of(const NamedPoints& named) {
   return places;
 }
 
-/// Throws PointsError where no point of a file can be projected.
-void require_some_projected([[maybe_unused]] const NamedPoints& named, [[maybe_unused]] const std::string& crs,
-                            [[maybe_unused]] const SvfOptions& options, [[maybe_unused]] const PackageDescription& package) {
-#ifdef FARLOD_WITH_GDAL
-  const std::vector<Point2d> given = places_of_rows(named, placed_rows(named));
-  const std::vector<Point2d> moved = gdal_files().reprojected_each(given, crs, package.crs_wkt);
-  if (std::ranges::all_of(moved, [](Point2d p) { return std::isnan(p.x); }))
-    (void)gdal_files().reprojected_of_file(given, crs, package.crs_wkt,
-                                           {options.points_file, advice_on_points_crs(!options.points_crs.empty())});
-#endif
-}
-
 /// Points that cannot be projected lose their place, and are counted.
 void move_to_package_crs(NamedPoints& named, const std::string& crs, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
@@ -75,6 +63,17 @@ void move_to_package_crs(NamedPoints& named, const std::string& crs, const Packa
                     " needs GDAL, which this farlod-svf was built without: give the points in the CRS of the "
                     "package (" +
                     package.crs_name + "), of which there are " + std::to_string(named.ids.size()) + ".");
+#endif
+}
+
+/// Throws PointsError where none of these places of a file has one in the package's CRS.
+void require_any_projected([[maybe_unused]] std::span<const Point2d> given, const NamedPoints& projected,
+                           [[maybe_unused]] const std::string& crs, [[maybe_unused]] const SvfOptions& options,
+                           [[maybe_unused]] const PackageDescription& package) {
+  if (given.empty() || !placed_rows(projected).empty()) return;
+#ifdef FARLOD_WITH_GDAL
+  (void)gdal_files().reprojected_of_file(given, crs, package.crs_wkt,
+                                         {options.points_file, advice_on_points_crs(!options.points_crs.empty())});
 #endif
 }
 
@@ -317,8 +316,9 @@ NamedPoints requested_points(const SvfOptions& options, const PackageDescription
   const std::vector<Point2d> given = places_of(named);
   const Point2d first = first_of(named);
   if (!crs.empty()) {
-    require_some_projected(named, crs, options, package);
+    const std::vector<Point2d> placed = places_of_rows(named, placed_rows(named));
     move_to_package_crs(named, crs, package);
+    require_any_projected(placed, named, crs, options, package);
   }
   named = near_city(std::move(named), {!crs.empty(), true, first}, package);
   const Point2d first_m = first_of(named);

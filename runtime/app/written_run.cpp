@@ -150,8 +150,7 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
     const RasterPlan plan = *plan_of_surface_model(package, extent_of(options));
     notes.push_back(fmt::format(
         "The city is a raster: its own pixels, {} × {} of {:g} m, are answered, {:g} m above its surface (--height). Of what "
-        "lies "
-        "around the raster, nothing but a --far-terrain is known: at its margin, values are those of an open surrounding.",
+        "lies around the raster, nothing but a --far-terrain is known: at its margin, values are those of an open surrounding.",
         plan.columns, plan.rows, plan.step_m, options.placing.height_m));
     return plan;
   }

@@ -108,8 +108,4 @@ std::vector<Point2d> reprojected_of_file(std::span<const Point2d> points, const 
                     places.advice);
 }
 
-std::string advice_to_say_crs(const std::filesystem::path& file) {
-  return "say the CRS of its coordinates, by ogr2ogr -a_srs EPSG:n NEW.gpkg " + file.string();
-}
-
 }  // namespace farlod

@@ -50,7 +50,9 @@ struct PlacesOfFile {
                   : "name the CRS of its coordinates by --points-crs EPSG:n";
 }
 /// What to do where no option names the CRS of a file.
-[[nodiscard]] std::string advice_to_say_crs(const std::filesystem::path& file);
+[[nodiscard]] inline std::string advice_to_say_crs(const std::filesystem::path& file) {
+  return "say the CRS of its coordinates, by ogr2ogr -a_srs EPSG:n NEW.gpkg " + file.string();
+}
 /// The same, but points that cannot be projected become NaN.
 [[nodiscard]] std::vector<Point2d> reprojected_each(std::span<const Point2d> points, const std::string& from_crs,
                                                     const std::string& to_crs);

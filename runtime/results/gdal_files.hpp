@@ -25,7 +25,6 @@ struct GdalFiles {
   MakeRasterWriter geotiff, netcdf, zarr, zipped_geotiffs;
   MakeFeatureWriter geopackage, flatgeobuf, netcdf_points, geojson;
 
-  decltype(&farlod::advice_to_say_crs) advice_to_say_crs;
   decltype(&farlod::esri_wkt_of) esri_wkt_of;
   decltype(&farlod::is_raster_file) is_raster_file;
   decltype(&farlod::is_vector_file) is_vector_file;

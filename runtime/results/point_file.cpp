@@ -51,7 +51,7 @@ RequestedPoints read_points_in([[maybe_unused]] const std::string& crs_wkt, cons
   if (read.crs_wkt.value_or("").empty()) return read;
   std::vector<Point2d> places;
   for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
-  places = gdal_files().reprojected_of_file(places, *read.crs_wkt, crs_wkt, {file, gdal_files().advice_to_say_crs(file)});
+  places = gdal_files().reprojected_of_file(places, *read.crs_wkt, crs_wkt, {file, advice_to_say_crs(file)});
   for (std::size_t n = 0; n < places.size(); ++n)
     std::tie(read.points[n].x, read.points[n].y) = std::pair(places[n].x, places[n].y);
 #endif
