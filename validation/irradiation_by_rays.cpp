@@ -162,7 +162,7 @@ void print(const char* what, std::vector<double> errors) {
 void run(const Options& options) {
   const PackageReader package(options.package);
   const Light light = light_of(options, std::chrono::minutes(5));
-  // The sun goes on between its positions: the judge has five times as many, spread over its disk
+  // The sun goes on between its positions: the judge has more of them, spread over its disk
   const scenes::LightByRays judge(light_of(options, std::chrono::seconds(options.judge_step_s)), options.directions,
                                   package.grid().rotation, package.manifest().convergence);
   const WholeCityOnDemand city(package, {});
@@ -187,7 +187,9 @@ int main(int argc, char** argv) {
   app.add_option("--longitude", options.longitude_deg)->required();
   app.add_option("--receivers", options.receivers)->capture_default_str();
   app.add_option("--directions", options.directions, "Of the sky's light")->capture_default_str();
-  app.add_option("--judge-step", options.judge_step_s, "Between places of the judge's sun, in seconds")->capture_default_str();
+  app.add_option("--judge-step", options.judge_step_s, "Between places of the judge's sun, in seconds")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--azimuths", options.azimuths)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   CLI11_PARSE(app, argc, argv);

@@ -144,8 +144,7 @@ class CityReading {
     std::size_t count = 0;
     const CityModel& city = read_.located.city;
     city.for_each_building([&](std::size_t, const Building& b) {
-      Box2d outline;
-      for (const Point3d& p : city.points_of(b)) outline.add(horizontal(p));
+      const Box2d outline = outline_of(city.points_of(b));
       if (!outline.empty() && terrain.height_at(0.5 * (outline.low + outline.high))) ++count;
     });
     return count;
