@@ -67,6 +67,7 @@ enum class ProblemCode : std::uint16_t {
   spike = 404,
   hole_outside = 405,
   floor_in_the_air = 406,
+  below_ground = 407,
 };
 
 /// What happened to the thing that has the problem.
@@ -172,6 +173,7 @@ inline constexpr std::array problem_descriptions{
                        "a hole lies outside of the facet that it is a hole of"},
     ProblemDescription{ProblemCode::floor_in_the_air, "floor_in_the_air", Effect::repaired,
                        "a building's lowest floor is more than a storey above the ground"},
+    ProblemDescription{ProblemCode::below_ground, "below_ground", Effect::kept, "a building is wholly below the ground"},
 };
 
 /// Throws InvalidArgument for a number that is none of the codes.

@@ -103,7 +103,7 @@ class CityReading {
     read_.far_terrain_files = std::move(files_.far_terrain.files);
     if (const auto& terrain = read_.ground.terrain) {
       read_.notes.insert(read_.notes.end(), terrain->notes.begin(), terrain->notes.end());
-      if (!read_.located.city.buildings().empty()) note_buildings_on(*terrain);
+      if (!read_.located.city.buildings().empty()) note_share(*terrain);
     }
     return std::move(read_);
   }
@@ -128,44 +128,26 @@ class CityReading {
     return sources;
   }
 
-  /// Those in the middle of whose outline the terrain has a height, and those of them that lie below it.
-  struct BuildingsOnTerrain {
-    std::size_t count = 0, buried = 0;
-    std::string first_buried_id;
-  };
-  void note_buildings_on(const TerrainRaster& terrain) {
-    const BuildingsOnTerrain on_it = buildings_on(terrain);
-    note_share(terrain, on_it.count);
-    if (on_it.buried > 0)
-      read_.notes.push_back(fmt::format("{} of {} buildings {} wholly below the terrain and see{} no sky, the first of them {}",
-                                        on_it.buried, read_.located.city.buildings().size(), on_it.buried == 1 ? "lies" : "lie",
-                                        on_it.buried == 1 ? "s" : "", on_it.first_buried_id));
-  }
   /// What is missing at the rim of the outermost cells is not worth a word.
-  void note_share(const TerrainRaster& terrain, std::size_t on_it) {
+  void note_share(const TerrainRaster& terrain) {
     constexpr double all_but_a_rim = 0.95;
     const double share = covered_share(terrain, read_.ground.grid);
     if (share >= all_but_a_rim) return;
-    const std::size_t all = read_.located.city.buildings().size();
+    const std::size_t all = read_.located.city.buildings().size(), on_it = count_buildings_on(terrain);
     const std::string below = on_it == all ? "all buildings" : fmt::format("{} of {} buildings", on_it, all);
     read_.notes.push_back(
         fmt::format("The terrain has heights under {}, and for {:.0f} % of the grid; elsewhere the ground is as high as the "
                     "nearest of them{}",
                     below, 100.0 * share, on_it == all ? "" : ": --terrain takes several files"));
   }
-  [[nodiscard]] BuildingsOnTerrain buildings_on(const TerrainRaster& terrain) const {
-    BuildingsOnTerrain found;
+  [[nodiscard]] std::size_t count_buildings_on(const TerrainRaster& terrain) const {
+    std::size_t count = 0;
     const CityModel& city = read_.located.city;
     city.for_each_building([&](std::size_t, const Building& b) {
-      const auto points = city.points_of(b);
-      const Box2d outline = outline_of(points);
-      const auto ground_m = outline.empty() ? std::nullopt : terrain.height_at(0.5 * (outline.low + outline.high));
-      if (!ground_m) return;
-      ++found.count;
-      const bool is_above = std::ranges::any_of(points, [&](const Point3d& p) { return p.z > *ground_m; });
-      if (b.height_reference == HeightReference::elevation && !is_above && found.buried++ == 0) found.first_buried_id = b.id;
+      const Box2d outline = outline_of(city.points_of(b));
+      if (!outline.empty() && terrain.height_at(0.5 * (outline.low + outline.high))) ++count;
     });
-    return found;
+    return count;
   }
 
   void locate(std::vector<SourceCity> sources) {

@@ -286,13 +286,35 @@ void add_wall_profiles(const LowFloor& floor, std::vector<WallProfile>& walls) {
   }
 }
 
-std::string gap_closed(const Foundation& foundation) {
-  return "the lowest floor is up to " + metres(foundation.gap_m) + " above the ground: closed down to it";
+Problem floor_in_the_air(const Building& building, const Foundation& foundation) {
+  return {ProblemCode::floor_in_the_air,
+          {},
+          building.id,
+          "the lowest floor is up to " + metres(foundation.gap_m) + " above the ground: closed down to it",
+          foundation.place};
 }
 
-std::string gap_left_open(const LowFloor& floor) {
-  return "a floor that is not the lowest is " + metres(floor.least_gap_m) + " to " + metres(floor.largest_gap_m) +
-         " above the ground: left open, where the ground may see hardly any sky";
+Problem floor_in_the_air(const Building& building, const LowFloor& floor) {
+  return {ProblemCode::floor_in_the_air,
+          {},
+          building.id,
+          "a floor that is not the lowest is " + metres(floor.least_gap_m) + " to " + metres(floor.largest_gap_m) +
+              " above the ground: left open, where the ground may see hardly any sky",
+          floor.place};
+}
+
+std::optional<Problem> below_ground(const Building& building, std::span<const Point3d> building_points,
+                                    const GroundHeightAt& ground_height) {
+  const auto is_above = [&](const Point3d& p) { return p.z >= ground_height(horizontal(p)) - ground_contact_m; };
+  const auto top = std::ranges::max_element(building_points, {}, &Point3d::z);
+  // The highest corner of nearly all buildings is above the ground
+  if (top == building_points.end() || is_above(*top) || std::ranges::any_of(building_points, is_above)) return std::nullopt;
+  return Problem{ProblemCode::below_ground,
+                 {},
+                 building.id,
+                 "its highest point is " + metres(ground_height(horizontal(*top)) - top->z) +
+                     " below the ground: its surfaces see no sky, and hide none",
+                 *top};
 }
 
 }  // namespace farlod::tiles

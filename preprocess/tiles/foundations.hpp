@@ -10,6 +10,7 @@
 
 #include "city/city_model.hpp"
 #include "farlod/point.hpp"
+#include "farlod/problem.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/horizon_edges.hpp"
 #include "tiles/slab.hpp"
@@ -71,8 +72,13 @@ struct LowFloor {
 /// Adds the walls below a floor to those of its building.
 void add_wall_profiles(const LowFloor& floor, std::vector<WallProfile>& walls);
 
-/// What the report says of a floor in the air.
-[[nodiscard]] std::string gap_closed(const Foundation& foundation);
-[[nodiscard]] std::string gap_left_open(const LowFloor& floor);
+/// What the report says of floors in the air, with positions in the grid frame.
+[[nodiscard]] Problem floor_in_the_air(const Building& building, const Foundation& foundation);
+[[nodiscard]] Problem floor_in_the_air(const Building& building, const LowFloor& floor);
+
+/// What it says of a building all points of which are below the ground, by more than `ground_contact_m`. It stands at the
+/// highest.
+[[nodiscard]] std::optional<Problem> below_ground(const Building& building, std::span<const Point3d> building_points,
+                                                  const GroundHeightAt& ground_height);
 
 }  // namespace farlod::tiles

@@ -162,11 +162,9 @@ class TileCutter {
   }
 
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {
-    for (Problem& problem : cut_building.problems) {
-      if (building.source < sources_.size()) problem.source = sources_[building.source];
-      if (problem.position) problem.position = p_projected(*problem.position);
-      report.add(std::move(problem));
-    }
+    for (Problem& problem : cut_building.problems) add_problem(std::move(problem), building, report);
+    if (auto buried = below_ground(building, city_.points_of(building), ground_height()))
+      add_problem(std::move(*buried), building, report);
     const auto number = static_cast<std::uint32_t>(tiles_.building_ids.size());
     const auto first_surface = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.building_ids.push_back(building.id);
@@ -243,7 +241,7 @@ class TileCutter {
     bool is_closed = foundation.has_value();
     for (const LowFloor& low : take_low_floors(pieces.slabs, undersides, ground_height())) {
       is_closed = is_closed || !low.walls.empty();
-      low.walls.empty() ? report_gap(building, gap_left_open(low), low.place, report) : place_low_floor(low, pieces);
+      low.walls.empty() ? add_problem(floor_in_the_air(building, low), building, report) : place_low_floor(low, pieces);
     }
     tiles_.foundation_count += is_closed ? 1 : 0;
     return foundation ? foundation->top_m : -std::numeric_limits<double>::infinity();
@@ -272,7 +270,7 @@ class TileCutter {
   }
 
   void place_foundation(const Building& building, const BuildingPieces& pieces, const Foundation& foundation, Report& report) {
-    if (foundation.gap_m > storey_m) report_gap(building, gap_closed(foundation), foundation.place, report);
+    if (foundation.gap_m > storey_m) add_problem(floor_in_the_air(building, foundation), building, report);
     const std::uint32_t number = add_foundation_surface(pieces);
     place_within_grid(foundation.walls, number, pieces.only_cell);
     const auto low = static_cast<float>(foundation.top_m - tiles_.height_origin_m);
@@ -289,10 +287,10 @@ class TileCutter {
     if (pieces.walls) add_wall_profiles(low, *pieces.walls);
   }
 
-  void report_gap(const Building& building, std::string detail, const Point3d& place, Report& report) const {
-    Problem problem{ProblemCode::floor_in_the_air, {}, building.id, std::move(detail)};
-    if (building.source < sources_.size()) problem.source = sources_[building.source];
-    problem.position = p_projected(place);
+  /// Its position is in the grid frame.
+  void add_problem(Problem problem, const Building& of, Report& report) const {
+    if (of.source < sources_.size()) problem.source = sources_[of.source];
+    if (problem.position) problem.position = p_projected(*problem.position);
     report.add(std::move(problem));
   }
 

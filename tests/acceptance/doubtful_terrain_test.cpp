@@ -69,19 +69,22 @@ TEST_F(DoubtfulTerrain, AnOffsetIsProposedInPlaceOfTheGivenOne) {
   const Outcome cellars = folder.run("farlod-pack " + houses + " -o a.farlod --force --terrain plain.asc --terrain-offset 4.9");
   EXPECT_THAT(cellars.out,
               HasSubstr("from the terrain; buildings begin 2.0 m below it (median; from 2.0 m below to 2.0 m below)"));
-  EXPECT_THAT(cellars.out, testing::Not(HasSubstr("wholly below the terrain")));
+  EXPECT_THAT(cellars.out, testing::Not(HasSubstr("wholly below the ground")));
 }
 
 /// Its receivers had no answer, as those of party walls.
 TEST_F(DoubtfulTerrain, ABuildingBelowItIsTold) {
-  // House 0 is 8 m high, and 20 m from the middle of the nine
-  const auto mound_m = [](Point2d p) { return norm(p - Point2d{-20.0, -20.0}) < 1.0 ? 112.0 : 102.0; };
+  // House 0 is 8 m high, on 10 m × 10 m, and 20 m west and south of the middle of the nine
+  const auto mound_m = [](Point2d p) { return norm(p - Point2d{-20.0, -20.0}) < 15.0 ? 112.0 : 102.0; };
   folder.write("mound.asc", ascii_grid(mound_m, 10.0, 500.0, {550025.0, 5500025.0}));
   const std::string houses = "'" FARLOD_SOURCE_DIR "/datasets/broken/212_another_datum.city.json'";
-  const Outcome outcome = folder.run("farlod-pack " + houses + " -o a.farlod --terrain mound.asc");
+  const Outcome outcome = folder.run("farlod-pack " + houses + " -o a.farlod --terrain mound.asc --report told.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("1 of 9 buildings lies wholly below the terrain and sees no sky, the first of them house 0\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 × 407 below_ground: a building is wholly below the ground (kept)\n"));
+  const auto told = folder.json_of("told.json");
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.back()["place"], "house 0");
+  EXPECT_EQ(told.back()["detail"], "its highest point is 2.000 m below the ground: its surfaces see no sky, and hide none");
 }
 
 TEST_F(DoubtfulTerrain, ASurfaceModelIsNoCanopy) {

@@ -190,6 +190,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"spike", {{"house"}, 6}},
       {"hole_outside", {{"house"}, 6}},
       {"floor_in_the_air", {{"lower", "upper"}, 12}},
+      {"below_ground", {{"house", "bunker"}, 12}},
   };
   for (const Fixture& fixture : fixtures_of_stages(2, 4)) {
     if (is_of_trees(fixture)) continue;

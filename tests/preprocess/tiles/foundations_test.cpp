@@ -110,6 +110,22 @@ TEST(Foundations, AFootprintReachesDownToTheGroundWhateverTheGap) {
   }
 }
 
+TEST(Foundations, ABuildingIsBelowTheGroundWithAllItsCorners) {
+  const GroundHeightAt slope = [](Point2d p) { return 0.1 * p.x; };  // 4 m and 5 m at the walls
+  const auto told = [&](double top_m) {
+    scenes::SceneBuilder town;
+    town.add_box({{40, 40}, {50, 50}}, -5.0, top_m);
+    const CityModel city = town.city();
+    return below_ground(city.buildings().front(), city.points(), slope);
+  };
+  for (const double top_m : {6.0, 4.5, 3.97}) EXPECT_FALSE(told(top_m)) << top_m;
+  const auto buried = told(3.0);
+  ASSERT_TRUE(buried);
+  EXPECT_EQ(buried->code, ProblemCode::below_ground);
+  EXPECT_THAT(buried->detail, HasSubstr("its highest point is 1.000 m below the ground"));
+  EXPECT_EQ(*buried->position, (Point3d{40.0, 40.0, 3.0}));
+}
+
 TEST(Foundations, WallsReachBelowTheGroundAllAlong) {
   const HorizonSegment border{{{0, 0, 5}, {10, 0, 5}}, {}, EdgeRole::underside};
   // A trough in the middle of the border
