@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/ground_contact.hpp"
@@ -305,6 +306,32 @@ NumbersOfWalls walls_of(const CityModel& city_grid, const Building& building, co
 
 void tell_what_overhangs(std::span<Surface> surfaces, const std::vector<std::uint32_t>& walls) {
   for (Surface& s : surfaces) s.grounded = std::binary_search(walls.begin(), walls.end(), s.number);
+}
+
+void add_ends(const std::vector<ClosingTriangle>& closing, std::vector<UpperBorder>& borders) {
+  constexpr double longest_m = 2.0 * contact_m;
+  // Each border computes its ends by itself
+  const auto order = [](const Point3d& p) {
+    const auto rounded = [](double m) { return std::llround(m * 1e4); };
+    return std::tuple(rounded(p.x), rounded(p.y), rounded(p.z));
+  };
+  const auto order_of_side = [&](const Segment3d& s) { return std::tuple_cat(order(s.a), order(s.b)); };
+  std::vector<Segment3d> sides;
+  for (const ClosingTriangle& t : closing)
+    for (std::size_t n = 0; n < t.size(); ++n) {
+      const auto [a, b] =
+          std::minmax(t[n], t[(n + 1) % t.size()], [&](const auto& p, const auto& q) { return order(p) < order(q); });
+      if (norm(b - a) <= longest_m) sides.push_back({a, b});
+    }
+  std::ranges::sort(sides, {}, order_of_side);
+  // Where the next triangle goes on is no end
+  for (auto side = sides.begin(); side != sides.end();) {
+    const auto next =
+        std::find_if(side, sides.end(), [&](const Segment3d& s) { return order_of_side(s) != order_of_side(*side); });
+    // It has no sides that would hide it from some eyes
+    if (next - side == 1) borders.push_back({{*side, {}, EdgeRole::overhang}});
+    side = next;
+  }
 }
 
 std::vector<HorizonSegment> placed_borders(const std::vector<UpperBorder>& borders, bool has_undersides) {

@@ -59,6 +59,9 @@ struct OverhangingBuilding {
 /// All surfaces of a building that overhangs do, but for these walls. Roofs that hide nothing either may be overhead.
 void tell_what_overhangs(std::span<Surface> surfaces, const std::vector<std::uint32_t>& walls);
 
+/// Adds the ends of closed cracks, which span them: sections may rise over one of these between the surfaces on either side.
+void add_ends(const std::vector<ClosingTriangle>& closing, std::vector<UpperBorder>& borders);
+
 /// What is placed of the upper borders: where `has_undersides`, with their roles; else all of them are grounded.
 [[nodiscard]] std::vector<HorizonSegment> placed_borders(const std::vector<UpperBorder>& borders, bool has_undersides);
 

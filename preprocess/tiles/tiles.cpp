@@ -328,6 +328,7 @@ class TileCutter {
         building.closing.push_back(triangle);
       }
     }
+    add_ends(building.closing, building.upper_borders);
     open.insert(open.end(), building.corners.begin(), building.corners.end());
     building.undersides = std::move(open);
   }
