@@ -49,39 +49,47 @@ void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const 
   if (has_overhangs()) upper_ends_.find(upper, silhouettes_.upper_ends);
 }
 
-CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead) {
-  residual_.find_in_wedges(receivers, in_wedges_);
-  Open sky = open_sky(grounded, receivers, overhead.below);
-  Bounds bounds;
-  for (std::size_t l = 0; l < receivers.count; ++l) {
-    if (has_bit(overhead.in_recess, l))
-      sky.gaps[l] = static_cast<double>(envelope_.size()) * most_in_recess(receivers, l, overhead) / turn_rad;
-    if (allowed_) decide(receivers, l, overhead, sky, bounds);
-    bounds.low[l] = static_cast<float>(std::clamp(sky.sky.low[l] - rounding_of_bounds, 0.0, 1.0));
-    bounds.high[l] = static_cast<float>(std::clamp(sky.sky.high[l] + sky.gaps[l] + rounding_of_bounds, 0.0, 1.0));
-  }
-  return bounds;
+double CertainSky::Open::farther_end_from(double value, std::size_t lane) const {
+  const double between = std::clamp(value, sky.low[lane], std::max(sky.low[lane], high(lane)));
+  return std::max(between - sky.low[lane], high(lane) - between);
 }
 
 /// Sky is what lies above the envelope of all upper borders, and at most what lies between that of the grounded edges and the
 /// lower borders.
-CertainSky::Open CertainSky::open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below) {
+CertainSky::Open CertainSky::open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead) {
+  residual_.find_in_wedges(receivers, in_wedges_);
   Open open;
-  open.gaps = most_in_gaps(grounded, receivers, below);
+  open.gaps = most_in_gaps(grounded, receivers, overhead.below);
+  open.sky = sky_above_borders(grounded, receivers);
+  for (std::size_t l = 0; l < receivers.count; ++l) {
+    if (has_bit(overhead.below, l)) open.sky.low[l] = open.sky.high[l] = 0.0;
+    if (has_bit(overhead.in_recess, l))
+      open.gaps[l] = static_cast<double>(envelope_.size()) * most_in_recess(receivers, l, overhead) / turn_rad;
+  }
+  return open;
+}
+
+PacketEnvelope::Bounds CertainSky::sky_above_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers) {
   const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
-  if (!has_overhangs()) {
-    open.sky = envelope_.bounds({std::span(upper).first(1), grounded_ends_.batches(), silhouettes_.upper_ends, grounded}, hiding,
-                                receivers, wanted_);
-  } else {
-    upper_ = grounded;
-    upper_.raise(far_.overhangs, receivers);
-    upper_.raise(near_.overhangs, receivers);
-    open.sky = envelope_.bounds({upper, upper_ends_.batches(), silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
+  if (!has_overhangs())
+    return envelope_.bounds({std::span(upper).first(1), grounded_ends_.batches(), silhouettes_.upper_ends, grounded}, hiding,
+                            receivers, wanted_);
+  upper_ = grounded;
+  upper_.raise(far_.overhangs, receivers);
+  upper_.raise(near_.overhangs, receivers);
+  return envelope_.bounds({upper, upper_ends_.batches(), silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
+}
+
+CertainSky::Bounds CertainSky::bounds(Open open, const ReceiverPacket& receivers, const Overhead& overhead,
+                                      const Lanes& estimates) {
+  Bounds bounds;
+  for (std::size_t l = 0; l < receivers.count; ++l) {
+    if (allowed_) decide(receivers, l, overhead, static_cast<double>(estimates[l]), open, bounds);
+    bounds.low[l] = static_cast<float>(std::clamp(open.sky.low[l] - rounding_of_bounds, 0.0, 1.0));
+    bounds.high[l] = static_cast<float>(std::clamp(open.high(l) + rounding_of_bounds, 0.0, 1.0));
   }
-  for (std::size_t l = 0; l < receivers.count; ++l)
-    if (has_bit(below, l)) open.sky.low[l] = open.sky.high[l] = 0.0;
-  return open;
+  return bounds;
 }
 
 PacketEnvelope::Sums CertainSky::most_in_gaps(const PacketHorizon& grounded, const ReceiverPacket& receivers,
@@ -146,15 +154,15 @@ double CertainSky::most_in_recess(const ReceiverPacket& receivers, std::size_t l
   return most * turn_rad / static_cast<double>(envelope_.size());
 }
 
-void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead, Open& open, Bounds& bounds) {
-  const double allowed = std::max(0.0, 2.0 * (allowed_->error - rounding_of_bounds));
-  if (open.width(l) <= allowed) return;
+void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead, double estimate, Open& open,
+                        Bounds& bounds) {
+  const double allowed = std::max(0.0, allowed_->error - rounding_of_bounds);
+  if (open.farther_end_from(estimate, l) <= allowed) return;
   const bool is_below = has_bit(overhead.below, l);
   const OpenWedges wedges{envelope_, reached_, l, is_below, most_in_recess(receivers, l, overhead)};
   const auto narrower = [&](std::size_t a, std::size_t b) { return wedges.width(a) < wedges.width(b); };
   std::vector<std::size_t> widest = wedges.widest_first();
-  double left = open.width(l);
-  while (left > allowed && !widest.empty() && wedges.width(widest.front()) > 0.0) {
+  while (open.farther_end_from(estimate, l) > allowed && !widest.empty() && wedges.width(widest.front()) > 0.0) {
     throw_if_cancelled(allowed_->stop);
     std::pop_heap(widest.begin(), widest.end(), narrower);
     const std::size_t k = widest.back();
@@ -163,7 +171,6 @@ void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Ov
     open.sky.low[l] += (term - wedges.low(k)) / turn_rad;
     open.sky.high[l] += (term - wedges.high(k)) / turn_rad;
     open.gaps[l] -= wedges.gap(k) / turn_rad;
-    left -= wedges.width(k) / turn_rad;
     ++bounds.wedges;
     bounds.decided |= 1U << l;
   }

@@ -26,7 +26,8 @@ inline constexpr double rounding_of_bounds = 2e-5;
 /// Edges leave bounds no farther apart, as long as nothing else does: less would cost more.
 inline constexpr double wanted_width = 0.005;
 
-/// How far answers may be from the ends of their bounds. Where edges, the far map and gaps leave more open, the whole city tells.
+/// How far estimates may be from the ends of their bounds. Where edges, the far map and gaps leave more open, the whole city
+/// tells.
 struct AllowedError {
   double error = 0.0;
   const WholeCityOnDemand& city;
@@ -43,7 +44,7 @@ class CertainSky {
   /// All must outlive it. The azimuths are even, at least PacketEnvelope::least_azimuths of them.
   CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
              const ResidualHorizon& residual);
-  /// From now on, bounds are no wider than twice this error.
+  /// From now on, the ends of bounds are no farther than this from the estimates.
   void keep(const AllowedError& allowed);
 
   /// Begins a group of packets, whose horizons are those of grounded edges alone.
@@ -55,16 +56,20 @@ class CertainSky {
     std::uint32_t decided = 0;
     std::uint64_t wedges = 0;
   };
-  /// For a packet of the group, and its horizon. For receivers in recesses, only the whole city knows bounds.
-  [[nodiscard]] Bounds bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead);
-
- private:
-  /// What is known of a packet, before rounding.
+  /// What is known of a packet of the group by its horizon, before rounding. For receivers in recesses, only the whole city knows
+  /// bounds.
   struct Open {
     PacketEnvelope::Bounds sky;
     PacketEnvelope::Sums gaps{};
-    [[nodiscard]] double width(std::size_t lane) const { return sky.high[lane] + gaps[lane] - sky.low[lane]; }
+    [[nodiscard]] double high(std::size_t lane) const { return sky.high[lane] + gaps[lane]; }
+    /// How far the farther end is from a value between both, or from the nearer one.
+    [[nodiscard]] double farther_end_from(double value, std::size_t lane) const;
   };
+  [[nodiscard]] Open open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead);
+  /// The bounds of the packet that was asked last, whose estimates these are.
+  [[nodiscard]] Bounds bounds(Open open, const ReceiverPacket& receivers, const Overhead& overhead, const Lanes& estimates);
+
+ private:
   /// Whether something is in the group's sight.
   [[nodiscard]] bool has_overhangs() const { return !near_.overhangs.empty() || !far_.overhangs.empty(); }
   [[nodiscard]] bool has_undersides() const { return !near_.undersides.empty() || !far_.undersides.empty(); }
@@ -74,7 +79,7 @@ class CertainSky {
   void choose_gaps(const ReceiverPacket& receivers, std::uint32_t below);
   /// Rows of wedges, at least those of the far map.
   [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
-  [[nodiscard]] Open open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, std::uint32_t below);
+  [[nodiscard]] PacketEnvelope::Bounds sky_above_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
   /// The terms of a receiver's wedges (PacketEnvelope::Terms). Above an overhang overhead there is no sky.
   struct OpenWedges {
     const PacketEnvelope& envelope;
@@ -95,8 +100,9 @@ class CertainSky {
   };
   /// The term of a wedge by the whole city.
   [[nodiscard]] double exact_term(const ReceiverPacket& receivers, std::size_t lane, bool is_below, std::size_t wedge);
-  /// Decides wedges of a receiver by the whole city, the widest first, until its bounds are close enough.
-  void decide(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead, Open& open, Bounds& bounds);
+  /// Decides wedges of a receiver by the whole city, the widest first, until its bounds are close enough to its estimate.
+  void decide(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead, double estimate, Open& open,
+              Bounds& bounds);
   /// The most that a wedge of a receiver in a recess may see of the sky.
   [[nodiscard]] double most_in_recess(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead) const;
 
