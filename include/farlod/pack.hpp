@@ -218,11 +218,15 @@ struct CityLooks {
   struct Heights {
     double least_m = 0.0, median_m = 0.0, tallest_m = 0.0;
   };
+  /// By how much the lowest points of buildings lie above a terrain in their middle; of those whose files tell both.
+  struct Feet {
+    Heights above_m;
+    std::string lowest_id, highest_id;  ///< the buildings at both ends
+  };
   struct Ground {
     double low_m = 0.0, high_m = 0.0;  ///< at the buildings; of a relief and of a surface, all of it
     GroundSource source = GroundSource::bases;
-    /// By how much the lowest points of buildings lie above a terrain in their middle; of those whose files tell both.
-    std::optional<Heights> feet_above_m = {};
+    std::optional<Feet> feet = {};
   };
   std::optional<Point2d> lon_lat_deg;  ///< the middle of the buildings, in WGS 84
   std::string country;                 ///< that the CRS of the package is meant for; empty where it is not for one alone

@@ -147,12 +147,14 @@ void print_end(const PackResult& result, const PackOptions& options, double seco
 
 /// A terrain of another datum lies above or below where buildings say that they stand.
 std::string text_of_feet(const CityLooks::Ground& ground) {
-  if (!ground.feet_above_m) return "";
+  if (!ground.feet) return "";
   const auto text = [](double above_m) {
     return fmt::format("{:.1f} m {}", std::abs(above_m), above_m < 0.0 ? "below" : "above");
   };
-  const auto& [lowest_m, median_m, highest_m] = *ground.feet_above_m;
-  return fmt::format("; buildings begin {} it (median; from {} to {})", text(median_m), text(lowest_m), text(highest_m));
+  const auto& [lowest_m, median_m, highest_m] = ground.feet->above_m;
+  if (lowest_m == highest_m) return fmt::format("; all buildings begin {} it", text(median_m));
+  return fmt::format("; buildings begin {} it (median; from {}, {}, to {}, {})", text(median_m), text(lowest_m),
+                     ground.feet->lowest_id, text(highest_m), ground.feet->highest_id);
 }
 
 /// What a person looks at to see whether it is the right city.

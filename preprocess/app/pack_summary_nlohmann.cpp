@@ -72,9 +72,11 @@ Json json_of(const CityLooks& l) {
   if (l.heights)
     j["heights_m"] = {{"least", l.heights->least_m}, {"median", l.heights->median_m}, {"tallest", l.heights->tallest_m}};
   if (l.ground) j["ground_m"] = {{"low", l.ground->low_m}, {"high", l.ground->high_m}, {"from", name_of(l.ground->source)}};
-  if (l.ground && l.ground->feet_above_m)
-    j["ground_m"]["buildings_above"] = {l.ground->feet_above_m->least_m, l.ground->feet_above_m->median_m,
-                                        l.ground->feet_above_m->tallest_m};
+  if (l.ground && l.ground->feet) {
+    const auto& [above_m, lowest_id, highest_id] = *l.ground->feet;
+    j["ground_m"]["buildings_above"] = {above_m.least_m, above_m.median_m, above_m.tallest_m};
+    j["ground_m"]["lowest_and_highest_building"] = {lowest_id, highest_id};
+  }
   return j;
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,6 +59,31 @@ void add_points(const ReadCity& city, HeightRange& range) {
   for (const Point3d& p : city.located.relief_points) range.add(p.z);
 }
 
+/// By how much buildings begin above a terrain.
+class FeetOnGround {
+ public:
+  void add(double above_m, const std::string& building_id) {
+    if (above_m_.empty() || above_m < lowest_m_) {
+      lowest_m_ = above_m;
+      lowest_id_ = building_id;
+    }
+    if (above_m_.empty() || above_m > highest_m_) {
+      highest_m_ = above_m;
+      highest_id_ = building_id;
+    }
+    above_m_.push_back(above_m);
+  }
+  [[nodiscard]] std::optional<CityLooks::Feet> feet() && {
+    if (above_m_.empty()) return std::nullopt;
+    return CityLooks::Feet{heights_in(std::move(above_m_)), std::move(lowest_id_), std::move(highest_id_)};
+  }
+
+ private:
+  std::vector<double> above_m_;
+  double lowest_m_ = 0.0, highest_m_ = 0.0;
+  std::string lowest_id_, highest_id_;
+};
+
 /// A city without buildings: the walls that a raster shows, and how far it reaches up and down.
 void look_at_ground(const ReadCity& city, CityLooks& looks) {
   HeightRange range;
@@ -88,14 +115,15 @@ ReachOfBuilding reach_of(std::span<const Point3d> points) {
 void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   const CityModel& model = city.located.city;
   const GroundSource source = source_of(city);
-  std::vector<double> heights_m, feet_above_m;
+  std::vector<double> heights_m;
+  FeetOnGround feet;
   HeightRange ground;
   model.for_each_building([&](std::size_t, const Building& b) {
     const auto [z, outline] = reach_of(model.points_of(b));
     if (z.is_empty()) return;
     const auto survey_m = survey_at(city, 0.5 * (outline.low + outline.high));
     if (survey_m) ground.add(*survey_m);
-    if (survey_m && tells_foot(b)) feet_above_m.push_back(z.low - *survey_m);
+    if (survey_m && tells_foot(b)) feet.add(z.low - *survey_m, b.id);
     if (source == GroundSource::bases && tells_foot(b)) ground.add(z.low);
     if (b.height_reference != HeightReference::down_to_ground)
       heights_m.push_back(z.high - z.low);
@@ -106,7 +134,7 @@ void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   if (!heights_m.empty()) looks.heights = heights_in(std::move(heights_m));
   if (source == GroundSource::nothing) ground.add(0.0);
   if (!ground.is_empty()) looks.ground = CityLooks::Ground{ground.low, ground.high, source};
-  if (looks.ground && !feet_above_m.empty()) looks.ground->feet_above_m = heights_in(std::move(feet_above_m));
+  if (looks.ground) looks.ground->feet = std::move(feet).feet();
 }
 
 }  // namespace

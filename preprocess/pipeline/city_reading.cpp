@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <span>
 #include <system_error>
@@ -38,16 +39,16 @@ Box2d outline_of(std::span<const Point3d> points) {
   return outline;
 }
 
-/// The share of the grid for which the raster has heights, by places that lie evenly in it.
-double covered_share(const TerrainRaster& terrain, const Grid& grid) {
+/// The share of a box for which the raster has heights, by places that lie evenly in it.
+double covered_share(const TerrainRaster& terrain, const Box2d& box) {
   constexpr int side = 64;
-  const auto& [low, high] = grid.rectangle();
   int covered = 0;
   for (int row = 0; row < side; ++row)
-    for (int column = 0; column < side; ++column) {
-      const Point2d p_grid{low.x + (column + 0.5) / side * (high.x - low.x), low.y + (row + 0.5) / side * (high.y - low.y)};
-      covered += terrain.height_at(grid.rotation.city_from_grid(p_grid)) ? 1 : 0;
-    }
+    for (int column = 0; column < side; ++column)
+      covered += terrain.height_at({std::lerp(box.low.x, box.high.x, (column + 0.5) / side),
+                                    std::lerp(box.low.y, box.high.y, (row + 0.5) / side)})
+                     ? 1
+                     : 0;
   return static_cast<double>(covered) / (side * side);
 }
 
@@ -128,17 +129,18 @@ class CityReading {
     return sources;
   }
 
-  /// What is missing at the rim of the outermost cells is not worth a word.
+  /// The ground around the buildings is what a map shows unless another box is asked for. A rim that is missing is not worth a
+  /// word.
   void note_share(const TerrainRaster& terrain) {
-    constexpr double all_but_a_rim = 0.95;
-    const double share = covered_share(terrain, read_.ground.grid);
+    constexpr double around_m = 50.0, all_but_a_rim = 0.95;
+    const double share = covered_share(terrain, grown(outline_of(std::as_const(read_.located.city).points()), around_m));
     if (share >= all_but_a_rim) return;
     const std::size_t all = read_.located.city.buildings().size(), on_it = count_buildings_on(terrain);
     const std::string below = on_it == all ? "all buildings" : fmt::format("{} of {} buildings", on_it, all);
-    read_.notes.push_back(
-        fmt::format("The terrain has heights under {}, and for {:.0f} % of the grid; elsewhere the ground is as high as the "
-                    "nearest of them{}",
-                    below, 100.0 * share, on_it == all ? "" : ": --terrain takes several files"));
+    read_.notes.push_back(fmt::format(
+        "The terrain has heights under {}, and for {:.0f} % of the box around them; elsewhere the ground is as high as the "
+        "nearest of them{}",
+        below, 100.0 * share, on_it == all ? "" : ": --terrain takes several files"));
   }
   [[nodiscard]] std::size_t count_buildings_on(const TerrainRaster& terrain) const {
     std::size_t count = 0;

@@ -130,7 +130,8 @@ Json json_of(const CityLooks& l) {
   if (l.lon_lat_deg) j["lon_lat"] = {l.lon_lat_deg->x, l.lon_lat_deg->y};
   if (l.heights) j["heights"] = json_of(*l.heights);
   if (l.ground) j["ground"] = {l.ground->low_m, l.ground->high_m, l.ground->source};
-  if (l.ground && l.ground->feet_above_m) j["feet_above"] = json_of(*l.ground->feet_above_m);
+  if (l.ground && l.ground->feet)
+    j["feet"] = {json_of(l.ground->feet->above_m), l.ground->feet->lowest_id, l.ground->feet->highest_id};
   return j;
 }
 CityLooks looks_from(const Json& j) {
@@ -140,7 +141,8 @@ CityLooks looks_from(const Json& j) {
   if (const auto h = j.find("heights"); h != j.end()) looks.heights = heights_from(*h);
   if (const auto g = j.find("ground"); g != j.end())
     looks.ground = CityLooks::Ground{g->at(0), g->at(1), g->at(2).get<GroundSource>()};
-  if (const auto f = j.find("feet_above"); f != j.end() && looks.ground) looks.ground->feet_above_m = heights_from(*f);
+  if (const auto f = j.find("feet"); f != j.end() && looks.ground)
+    looks.ground->feet = CityLooks::Feet{heights_from(f->at(0)), f->at(1), f->at(2)};
   return looks;
 }
 

@@ -173,7 +173,7 @@ std::optional<std::string> note_outside_of_grid(const NamedPoints& named, const 
 
 std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const PackageDescription& city) {
   const std::vector<std::size_t> beyond = rows_beyond(named, city);
-  if (beyond.empty()) return std::nullopt;
+  if (beyond.size() == named.told_as_far) return std::nullopt;
   const std::size_t first = beyond.front();
   return fmt::format(
       "{} of {} points {} more than {:g} m beyond the grid of the city and {} no answer; "
@@ -226,16 +226,21 @@ Reasons reasons_of_unanswered(const Package& package, const NamedPoints& named, 
 
 std::optional<std::string> note_of_unanswered(const NamedPoints& named, const Reasons& reasons, const PackageDescription& city) {
   constexpr std::size_t most_named = 5;
-  std::size_t count = 0;
+  std::size_t count = 0, in_buildings = 0;
   std::string first;
   for (const auto& [n, reason] : reasons) {
-    if (!is_in_reach(named, n, city) || ++count > most_named) continue;
+    if (!is_in_reach(named, n, city)) continue;
+    in_buildings += reason.place == WhyUnanswered::Place::building ? 1 : 0;
+    if (++count > most_named) continue;
     first += fmt::format("{}{} at {:.10g}, {:.10g} ({})", first.empty() ? "" : "; ", named.ids[n], named.x_m[n], named.y_m[n],
                          reason.detail);
   }
   if (count == 0) return std::nullopt;
-  return fmt::format("{} of {} points {} no answer: {}{}.", count, named.ids.size(), count == 1 ? "has" : "have", first,
-                     count > most_named ? fmt::format("; and {} more", count - most_named) : "");
+  const std::size_t at_city = rows_in_reach(named, city).size();
+  return fmt::format("{} of {} points{} {} no answer: {}{}.{}", count, at_city, at_city < named.ids.size() ? " at the city" : "",
+                     count == 1 ? "has" : "have", first,
+                     count > most_named ? fmt::format("; and {} more", count - most_named) : "",
+                     in_buildings > 0 ? " --on-surface answers on the roofs." : "");
 }
 
 PointAnswers evaluate_named(const Package& package, const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {

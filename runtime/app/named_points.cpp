@@ -192,11 +192,14 @@ void tell_far_points(std::span<const Point2d> given, const std::string& crs, con
   for (std::size_t n = 0; n < given.size(); ++n)
     if (named.has_place(n) && !is_near({named.x_m[n], named.y_m[n]}, package) && count++ == 0) first = n;
   if (count == 0 || near_count(named, package) == 0) return;
+  named.told_as_far = count;
   const Point2d city = 0.5 * (package.outline_projected.low + package.outline_projected.high);
-  named.notes.push_back(fmt::format(
-      "{} of {} points {} more than 100 km from the city: {}point {} in row {}, at {:.10g}, {:.10g}, {:.0f} km away; {}.", count,
-      given.size(), count == 1 ? "lies" : "lie", count == 1 ? "" : "the first is ", named.ids[first], first + 1, given[first].x,
-      given[first].y, norm(Point2d{named.x_m[first], named.y_m[first]} - city) / 1000.0, looks_of(given[first], crs, package)));
+  named.notes.push_back(
+      fmt::format("{} of {} points {} more than 100 km from the city and {} no answer: {}point {} in row {}, at {:.10g}, "
+                  "{:.10g}, {:.0f} km away; {}.",
+                  count, given.size(), count == 1 ? "lies" : "lie", count == 1 ? "has" : "have",
+                  count == 1 ? "" : "the first is ", named.ids[first], first + 1, given[first].x, given[first].y,
+                  norm(Point2d{named.x_m[first], named.y_m[first]} - city) / 1000.0, looks_of(given[first], crs, package)));
 }
 
 /// What is said of the CRS of points, and the first of them as it was given.

@@ -37,7 +37,8 @@ struct NamedPoints {
   Attributes attributes;
   std::vector<std::string> notes;
   std::size_t skipped_features = 0;
-  std::string doubtful_z;  ///< as RequestedPoints::doubtful_z
+  std::string doubtful_z;       ///< as RequestedPoints::doubtful_z
+  std::size_t told_as_far = 0;  ///< points that a note says to be far from the city
 
   explicit NamedPoints(RequestedPoints requested);
   /// Leaves out the points outside of a region.

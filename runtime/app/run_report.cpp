@@ -62,13 +62,16 @@ void print_errors(const char* of_what, const ErrorSummary& e) {
 
 /// How exact the answers are, as far as somebody asked.
 void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& asked) {
+  constexpr double wide = 0.05;
   if (asked.max_error)
     fmt::print(
         "Error of {:g} at the most: {} azimuths, {} rays where there are no horizons, {} parts of the sky decided by the whole "
         "city\n",
         *asked.max_error, run.accuracy.azimuths, run.accuracy.rays, run.retraced_rays);
   if (run.bounds)
-    fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
+    fmt::print(
+        "Certain intervals: {:.4f} wide on average, {:.4f} at the most{}\n", run.bounds->mean, run.bounds->max,
+        !asked.max_error && run.bounds->max > wide ? ", as below overhangs and in recesses (--max-error narrows them)" : "");
   if (run.svf_total_bounds)
     fmt::print("Certain intervals of svf_total: {:.4f} wide on average, {:.4f} at the most\n", run.svf_total_bounds->mean,
                run.svf_total_bounds->max);

@@ -253,10 +253,11 @@ TEST_F(Report, TellsWhichShareOfTheGridTheTerrainCovers) {
   folder.write("sound.geojson", footprints_geojson(small_town()));
   folder.write("west.asc", ascii_grid([](Point2d p) { return p.x < 0.0 ? 100.0 : -9999.0; }));
   const Outcome half = folder.run("farlod-pack sound.geojson --terrain west.asc -o a.farlod");
-  EXPECT_THAT(half.out,
-              testing::ContainsRegex(
-                  "The terrain has heights under (1[0-9]|2[0-9]) of 36 buildings, and for (4[5-9]|5[0-5]) % of the grid; "
-                  "elsewhere the ground is as high as the nearest of them: --terrain takes several"));
+  EXPECT_THAT(
+      half.out,
+      testing::ContainsRegex(
+          "The terrain has heights under (1[0-9]|2[0-9]) of 36 buildings, and for (4[5-9]|5[0-5]) % of the box around them; "
+          "elsewhere the ground is as high as the nearest of them: --terrain takes several"));
   folder.write("all.asc", ascii_grid([](Point2d) { return 100.0; }));
   const Outcome all = folder.run("farlod-pack sound.geojson --terrain all.asc -o a.farlod --force");
   EXPECT_EQ(all.exit_code, 0) << all.err;
