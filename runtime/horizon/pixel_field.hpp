@@ -35,9 +35,9 @@ class HighestPixels {
 };
 
 /// A segment reaches over its length, a pixel at either end, and the receivers of a block; and begins anywhere in a square.
-inline constexpr HighestPixels::Around around_far_step{2, 8, 5}, around_long_step{5, 4, 4};
-static_assert((1 << 2) * 8 >= far_step + 3 + 15 + 3 && (1 << 2) * 5 >= far_step + 3 + 3 + 3);
-static_assert((1 << 5) * 4 >= long_step + 3 + 15 + 31);
+inline constexpr HighestPixels::Around around_far_step{1, 14, 8}, around_long_step{4, 7, 6};
+static_assert((1 << 1) * 14 >= far_step + 3 + 15 + 1 && (1 << 1) * 8 >= far_step + 3 + 3 + 1);
+static_assert((1 << 4) * 7 >= long_step + 3 + 15 + 15 && (1 << 4) * 6 >= long_step + 3 + 3 + 15);
 
 /// A height with JoinedPixels, as PixelFieldView has it.
 [[nodiscard]] float flagged_height(float height_m, std::uint32_t joined);

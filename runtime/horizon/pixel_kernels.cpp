@@ -67,9 +67,6 @@ struct Horizon {
       raised |= bits_of((broadcast(height_m) - z_m[r]) * broadcast(per_distance) > slope[r]);
     return raised != 0;
   }
-  FARLOD_LANES void raise_to(std::size_t r, const Floats& height_m, float per_distance) {
-    slope[r] = max(slope[r], (height_m - z_m[r]) * broadcast(per_distance));
-  }
   FARLOD_LANES void note_lowest() {
     Floats lowest = slope[0];
     for (std::size_t r = 1; r < PixelBlock::rows; ++r) lowest = min(lowest, slope[r]);
@@ -77,18 +74,28 @@ struct Horizon {
   }
 };
 
+/// The receivers of a row of a block, and their horizons: few enough numbers for registers, so that a segment is passed row by
+/// row.
+struct HorizonOfRow {
+  Floats z_m, slope;
+
+  FARLOD_LANES HorizonOfRow(const Horizon& horizon, std::size_t row) : z_m(horizon.z_m[row]), slope(horizon.slope[row]) {}
+  FARLOD_LANES void raise_to(const Floats& height_m, float per_distance) {
+    slope = max(slope, (height_m - z_m) * broadcast(per_distance));
+  }
+};
+
 FARLOD_LANES Floats height_at(const float* pixel, const PixelCrossing& c) {
   return load(pixel + c.pixel) + c.share * load(pixel + c.slope);
 }
 
-FARLOD_LANES void pass_line(const PixelWindowView& window, const float* pixel, const PixelCrossing& line, Horizon& horizon) {
-  for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += window.stride)
-    horizon.raise_to(r, height_at(pixel, line), line.per_distance);
+FARLOD_LANES void pass_lines(const float* pixel, std::span<const PixelCrossing> lines, HorizonOfRow& row) {
+  for (const PixelCrossing& line : lines) row.raise_to(height_at(pixel, line), line.per_distance);
 }
-FARLOD_LANES void pass_side(const PixelWindowView& window, const float* pixel, const SideCrossing& side, Horizon& horizon) {
-  for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += window.stride)
-    horizon.raise_to(r, max(height_at(pixel, side.first), height_at(pixel, side.second)) + load(pixel + side.torn),
-                     side.first.per_distance);
+FARLOD_LANES void pass_sides(const float* pixel, std::span<const SideCrossing> sides, HorizonOfRow& row) {
+  for (const SideCrossing& side : sides)
+    row.raise_to(max(height_at(pixel, side.first), height_at(pixel, side.second)) + load(pixel + side.torn),
+                 side.first.per_distance);
 }
 
 FARLOD_LANES void march_near(const PixelWindowView& window, const PixelPath& path, const PixelBlock& block, Horizon& horizon) {
@@ -97,8 +104,13 @@ FARLOD_LANES void march_near(const PixelWindowView& window, const PixelPath& pat
   for (const NearSegment& segment : path.near) {
     const float highest_m = highest_from(window.highest, block.window_x + segment.x_low, block.window_y + segment.y_low);
     if (horizon.may_be_raised_to(highest_m, segment.per_distance)) {
-      for (; crossing < segment.crossings_end; ++crossing) pass_line(window, pixel, path.crossings[crossing], horizon);
-      for (; window.is_torn && side < segment.sides_end; ++side) pass_side(window, pixel, path.sides[side], horizon);
+      for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
+        HorizonOfRow row(horizon, r);
+        const float* const first = pixel + static_cast<std::ptrdiff_t>(r) * window.stride;
+        pass_lines(first, path.crossings.subspan(crossing, segment.crossings_end - crossing), row);
+        if (window.is_torn) pass_sides(first, path.sides.subspan(side, segment.sides_end - side), row);
+        horizon.slope[r] = row.slope;
+      }
       horizon.note_lowest();
     }
     crossing = segment.crossings_end;
@@ -106,7 +118,22 @@ FARLOD_LANES void march_near(const PixelWindowView& window, const PixelPath& pat
   }
 }
 
-/// What a ray from a block meets beyond the window, line by line.
+/// A line beyond the window: between the centres of two pixels, or the side between them.
+struct FarLine {
+  const float *from, *to;  ///< that the ray of the first receiver passes
+  const float* nearer;     ///< one of them
+  float share, per_line;   ///< of the way between them; 1 / how many lines away
+};
+/// Those of one kind in a segment.
+struct FarLines {
+  static constexpr std::size_t most = far_step + 2;
+  FarLine lines[most];
+  std::size_t count = 0;
+
+  FARLOD_LANES void add(const FarLine& line) { lines[count++] = line; }
+};
+
+/// What a ray from a block meets beyond the window.
 template <bool is_torn>
 struct FarRay {
   const PixelFieldView& field;
@@ -120,78 +147,85 @@ struct FarRay {
   FARLOD_LANES static Mask is_joined(const Floats& flagged, std::int32_t flag) {
     return (to_bits(flagged) & flag) == broadcast(flag);
   }
-  /// Between the centres of two pixels, at a share of the way: on the surface that joins them, or on the one that is nearer.
-  FARLOD_LANES static Floats between(const Floats& from, const Floats& to, const float* nearer, std::int32_t flag, float share) {
-    const Floats sloped = from + share * (to - from);
+  /// The height at the share of the way: on the surface that joins both pixels, or on the nearer one. All of a row of a block lie
+  /// so far behind those of the line.
+  FARLOD_LANES static Floats height_at(const FarLine& line, std::ptrdiff_t behind, std::int32_t flag) {
+    const Floats from = load(line.from + behind), sloped = from + line.share * (load(line.to + behind) - from);
     if constexpr (is_torn)
-      return choose(is_joined(from, flag), sloped, load(nearer));
+      return choose(is_joined(from, flag), sloped, load(line.nearer + behind));
     else
       return sloped;
   }
-  FARLOD_LANES void pass_column(const float* pixel, float share, float per_line, Floats (&rise)[PixelBlock::rows]) const {
-    const std::ptrdiff_t nearer = share < 0.5F ? 0 : field.stride;
-    // The northern pixel of a row is the southern one of the next
-    Floats south = load(pixel);
-    for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += field.stride) {
-      const Floats to = load(pixel + field.stride);
-      rise[r] = max(rise[r], (between(south, to, pixel + nearer, north, share) - horizon.z_m[r]) * broadcast(per_line));
-      south = to;
-    }
+  /// Raises horizons to what rises from line to line.
+  FARLOD_LANES static void pass_lines(const FarLines& all, std::ptrdiff_t behind, std::int32_t flag, float lines_per_metre,
+                                      HorizonOfRow& row) {
+    Floats rise = broadcast(0.0F);
+    for (std::size_t n = 0; n < all.count; ++n)
+      rise = max(rise, (height_at(all.lines[n], behind, flag) - row.z_m) * broadcast(all.lines[n].per_line));
+    row.slope = max(row.slope, rise * broadcast(lines_per_metre));
   }
-  FARLOD_LANES void pass_row(const float* pixel, float share, float per_line, Floats (&rise)[PixelBlock::rows]) const {
-    const std::ptrdiff_t nearer = share < 0.5F ? 0 : 1;
-    for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += field.stride)
-      rise[r] = max(rise[r],
-                    (between(load(pixel), load(pixel + 1), pixel + nearer, east, share) - horizon.z_m[r]) * broadcast(per_line));
-  }
-  /// Raises horizons to what rises from line to line by that much.
-  FARLOD_LANES void raise(const Floats (&rise)[PixelBlock::rows], float lines_per_metre) {
-    for (std::size_t r = 0; r < PixelBlock::rows; ++r)
-      horizon.slope[r] = max(horizon.slope[r], rise[r] * broadcast(lines_per_metre));
-  }
-  /// Over the side of two pixels, if the surface is torn there.
-  FARLOD_LANES void pass_side(const float* from, const float* to, std::int32_t flag, float per_distance) {
-    for (std::size_t r = 0; r < PixelBlock::rows; ++r, from += field.stride, to += field.stride) {
-      const Floats a = load(from);
-      horizon.raise_to(r, choose(is_joined(a, flag), broadcast(no_height_m), max(a, load(to))), per_distance);
+  /// Over the sides of two pixels, where the surface is torn.
+  FARLOD_LANES static void pass_sides(const FarLines& all, std::ptrdiff_t behind, std::int32_t flag, HorizonOfRow& row) {
+    for (std::size_t n = 0; n < all.count; ++n) {
+      const Floats a = load(all.lines[n].from + behind);
+      row.raise_to(choose(is_joined(a, flag), broadcast(no_height_m), max(a, load(all.lines[n].to + behind))),
+                   all.lines[n].per_line);
     }
   }
 
   /// The lines between the ends of two segments.
   FARLOD_LANES void march(const FarSegment& before, const FarSegment& segment) {
-    march_columns(before.columns_end, segment.columns_end);
-    march_rows(before.rows_end, segment.rows_end);
-    if constexpr (is_torn) march_sides(before, segment);
+    const FarLines columns = columns_between(before.columns_end, segment.columns_end),
+                   rows = rows_between(before.rows_end, segment.rows_end);
+    FarLines east_sides, north_sides;
+    if constexpr (is_torn) {
+      list_east_sides(before.east_sides_end, segment.east_sides_end, east_sides);
+      list_north_sides(before.north_sides_end, segment.north_sides_end, north_sides);
+    }
+    for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
+      HorizonOfRow row(horizon, r);
+      const std::ptrdiff_t behind = static_cast<std::ptrdiff_t>(r) * field.stride;
+      pass_lines(columns, behind, north, path.columns_per_metre, row);
+      pass_lines(rows, behind, east, path.rows_per_metre, row);
+      pass_sides(east_sides, behind, east, row);
+      pass_sides(north_sides, behind, north, row);
+      horizon.slope[r] = row.slope;
+    }
   }
   FARLOD_LANES std::int32_t x_sign() const { return path.cosine < 0.0 ? -1 : 1; }
   FARLOD_LANES std::int32_t y_sign() const { return path.sine < 0.0 ? -1 : 1; }
-  FARLOD_LANES void march_columns(std::int32_t first, std::int32_t end) {
-    Floats rise[PixelBlock::rows]{};
+  FARLOD_LANES FarLines columns_between(std::int32_t first, std::int32_t end) const {
+    FarLines lines;
     for (std::int32_t n = first; n < end; ++n) {
       const FixedPoint y(n * path.north_per_column + path.north_first);
-      pass_column(pixel_at(x_sign() * n, y.whole), y.part, 1.0F / (static_cast<float>(n) - path.column_lead), rise);
+      const float* const from = pixel_at(x_sign() * n, y.whole);
+      lines.add({from, from + field.stride, y.part < 0.5F ? from : from + field.stride, y.part,
+                 1.0F / (static_cast<float>(n) - path.column_lead)});
     }
-    raise(rise, path.columns_per_metre);
+    return lines;
   }
-  FARLOD_LANES void march_rows(std::int32_t first, std::int32_t end) {
-    Floats rise[PixelBlock::rows]{};
+  FARLOD_LANES FarLines rows_between(std::int32_t first, std::int32_t end) const {
+    FarLines lines;
     for (std::int32_t n = first; n < end; ++n) {
       const FixedPoint x(n * path.east_per_row + path.east_first);
-      pass_row(pixel_at(x.whole, y_sign() * n), x.part, 1.0F / (static_cast<float>(n) - path.row_lead), rise);
+      const float* const from = pixel_at(x.whole, y_sign() * n);
+      lines.add({from, from + 1, x.part < 0.5F ? from : from + 1, x.part, 1.0F / (static_cast<float>(n) - path.row_lead)});
     }
-    raise(rise, path.rows_per_metre);
+    return lines;
   }
-  FARLOD_LANES void march_sides(const FarSegment& before, const FarSegment& segment) {
-    const auto per_side = [](std::int32_t n, float lead) { return 1.0F / (static_cast<float>(n) - 0.5F - lead); };
-    for (std::int32_t n = before.east_sides_end; n < segment.east_sides_end; ++n) {
+  FARLOD_LANES static float per_side(std::int32_t n, float lead) { return 1.0F / (static_cast<float>(n) - 0.5F - lead); }
+  FARLOD_LANES void list_east_sides(std::int32_t first, std::int32_t end, FarLines& sides) const {
+    for (std::int32_t n = first; n < end; ++n) {
       const FixedPoint y(half_before(n, path.north_per_column, path.north_first));
-      const float* const pixel = pixel_at(x_sign() < 0 ? -n : n - 1, y.whole);
-      pass_side(pixel, pixel + 1, east, path.columns_per_metre * per_side(n, path.column_lead));
+      const float* const from = pixel_at(x_sign() < 0 ? -n : n - 1, y.whole);
+      sides.add({from, from + 1, from, 0.0F, path.columns_per_metre * per_side(n, path.column_lead)});
     }
-    for (std::int32_t n = before.north_sides_end; n < segment.north_sides_end; ++n) {
+  }
+  FARLOD_LANES void list_north_sides(std::int32_t first, std::int32_t end, FarLines& sides) const {
+    for (std::int32_t n = first; n < end; ++n) {
       const FixedPoint x(half_before(n, path.east_per_row, path.east_first));
-      const float* const pixel = pixel_at(x.whole, y_sign() < 0 ? -n : n - 1);
-      pass_side(pixel, pixel + field.stride, north, path.rows_per_metre * per_side(n, path.row_lead));
+      const float* const from = pixel_at(x.whole, y_sign() < 0 ? -n : n - 1);
+      sides.add({from, from + field.stride, from, 0.0F, path.rows_per_metre * per_side(n, path.row_lead)});
     }
   }
 
