@@ -27,9 +27,14 @@ std::int32_t squares_along(std::int32_t pixels, std::uint32_t shift) { return ((
 
 /// Makes each value the highest of `count` ones, from itself on, `apart` each; behind the last there is nothing.
 void raise_to_next(std::span<float> values, std::size_t apart, std::int32_t count) {
-  for (std::size_t n = 0; n < values.size(); ++n)
-    for (std::size_t m = 1; m < static_cast<std::size_t>(count) && n + m * apart < values.size(); ++m)
-      values[n] = std::max(values[n], values[n + m * apart]);
+  const auto raise_to = [&](std::size_t next) {
+    for (std::size_t n = 0; n + next * apart < values.size(); ++n) values[n] = std::max(values[n], values[n + next * apart]);
+  };
+  // Each value is that of twice as many, and so on; then the two that begin and end with all of them overlap
+  const auto all = static_cast<std::size_t>(count);
+  std::size_t known = 1;
+  for (; 2 * known <= all; known *= 2) raise_to(known);
+  if (known < all) raise_to(all - known);
 }
 
 }  // namespace

@@ -40,9 +40,9 @@ constexpr double bounds_azimuth_bytes = 500 + 15 * 64;                // Certain
 /// What further quantities add: profiles of a group of packets, and rows that are made of them.
 constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
 // PixelCity: a pixel; at each azimuth, its path near a receiver, and each pixel farther along the sides of the raster
-constexpr double pixel_bytes = 4.5, path_bytes = 6000, path_step_bytes = 4;
+constexpr double pixel_bytes = 5.2, path_bytes = 6000, path_step_bytes = 4;
 // CanopyCity: a pixel, and a step of the path at an azimuth
-constexpr double canopy_pixel_bytes = 14, canopy_step_bytes = 24;
+constexpr double canopy_pixel_bytes = 15, canopy_step_bytes = 24;
 constexpr double drawn_azimuth_bytes = packets_in_group * 64;  // PixelHorizon
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;            // RayEngine, with the directions in the order of their azimuths
 
