@@ -235,8 +235,9 @@ class Packing {
     double farthest_m = 0.0;
     for (const Point3f& p : found.vertices) farthest_m = std::max(farthest_m, std::hypot(double{p.x}, double{p.y}));
     if (!found.empty())
-      record_.result.notes.push_back(fmt::format("Far terrain: {} triangles beyond the grid, up to {:.1f} km away.",
-                                                 found.triangles.size(), farthest_m / 1000.0));
+      record_.result.notes.push_back(
+          fmt::format("The terrain beyond the grid may hide the sky, too: {} triangles of it, up to {:.1f} km away.",
+                      found.triangles.size(), farthest_m / 1000.0));
     return found;
   }
 
@@ -295,8 +296,8 @@ class Packing {
     result.foundations = tiles.foundation_count;
     if (tiles.foundation_count > 0)
       result.notes.push_back(
-          "Closed down to the ground, since a low floor is above it somewhere: " + std::to_string(tiles.foundation_count) +
-          " of " + std::to_string(tiles.building_ids.size()) + " buildings.");
+          "Closed down to the ground, since a low floor is above it somewhere (by more than 3 m: problem 406): " +
+          std::to_string(tiles.foundation_count) + " of " + std::to_string(tiles.building_ids.size()) + " buildings.");
     std::map<int, std::uint64_t> counts;
     for (const Problem& p : report_.since(first_problem_)) ++counts[static_cast<int>(p.code)];
     m.problem_counts.assign(counts.begin(), counts.end());
