@@ -173,7 +173,8 @@ inline constexpr std::array problem_descriptions{
                        "a hole lies outside of the facet that it is a hole of"},
     ProblemDescription{ProblemCode::floor_in_the_air, "floor_in_the_air", Effect::repaired,
                        "a building's lowest floor is more than a storey above the ground"},
-    ProblemDescription{ProblemCode::below_ground, "below_ground", Effect::kept, "a building is wholly below the ground"},
+    ProblemDescription{ProblemCode::below_ground, "below_ground", Effect::kept,
+                       "most of a building is below the ground, or all of it"},
 };
 
 /// Throws InvalidArgument for a number that is none of the codes.

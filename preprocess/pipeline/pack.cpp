@@ -295,9 +295,9 @@ class Packing {
     m.triangles = tiles.triangle_count();
     result.foundations = tiles.foundation_count;
     if (tiles.foundation_count > 0)
-      result.notes.push_back(
-          "Closed down to the ground, since a low floor is above it somewhere (by more than 3 m: problem 406): " +
-          std::to_string(tiles.foundation_count) + " of " + std::to_string(tiles.building_ids.size()) + " buildings.");
+      result.notes.push_back("Closed down to the ground, since a low floor is above it somewhere: " +
+                             std::to_string(tiles.foundation_count) + " of " + std::to_string(tiles.building_ids.size()) +
+                             " buildings (usual on slopes; problem 406 has those that are more than 3 m above it).");
     std::map<int, std::uint64_t> counts;
     for (const Problem& p : report_.since(first_problem_)) ++counts[static_cast<int>(p.code)];
     m.problem_counts.assign(counts.begin(), counts.end());

@@ -305,16 +305,24 @@ Problem floor_in_the_air(const Building& building, const LowFloor& floor) {
 
 std::optional<Problem> below_ground(const Building& building, std::span<const Point3d> building_points,
                                     const GroundHeightAt& ground_height) {
-  const auto is_above = [&](const Point3d& p) { return p.z >= ground_height(horizontal(p)) - ground_contact_m; };
-  const auto top = std::ranges::max_element(building_points, {}, &Point3d::z);
-  // The highest corner of nearly all buildings is above the ground
-  if (top == building_points.end() || is_above(*top) || std::ranges::any_of(building_points, is_above)) return std::nullopt;
-  return Problem{ProblemCode::below_ground,
-                 {},
-                 building.id,
-                 "its highest point is " + metres(ground_height(horizontal(*top)) - top->z) +
-                     " below the ground: its surfaces see no sky, and hide none",
-                 *top};
+  if (building_points.empty()) return std::nullopt;
+  const auto lowest = std::ranges::min_element(building_points, {}, &Point3d::z),
+             top = std::ranges::max_element(building_points, {}, &Point3d::z);
+  const double middle_m = 0.5 * (lowest->z + top->z);
+  double least_ground_m = std::numeric_limits<double>::infinity();
+  bool is_all_below = true;
+  for (const Point3d& p : building_points) {
+    const double ground_m = ground_height(horizontal(p)) - ground_contact_m;
+    // The middle of nearly all buildings is above the ground at the first corner
+    if (ground_m <= middle_m) return std::nullopt;
+    least_ground_m = std::min(least_ground_m, ground_m + ground_contact_m);
+    is_all_below = is_all_below && p.z < ground_m;
+  }
+  const std::string detail = is_all_below ? "its highest point is " + metres(ground_height(horizontal(*top)) - top->z) +
+                                                " below the ground: its surfaces see no sky, and hide none"
+                                          : metres(least_ground_m - lowest->z) + " of its " + metres(top->z - lowest->z) +
+                                                " are below the ground at each of its corners";
+  return Problem{ProblemCode::below_ground, {}, building.id, detail, *top};
 }
 
 }  // namespace farlod::tiles

@@ -76,8 +76,8 @@ void add_wall_profiles(const LowFloor& floor, std::vector<WallProfile>& walls);
 [[nodiscard]] Problem floor_in_the_air(const Building& building, const Foundation& foundation);
 [[nodiscard]] Problem floor_in_the_air(const Building& building, const LowFloor& floor);
 
-/// What it says of a building all points of which are below the ground, by more than `ground_contact_m`. It stands at the
-/// highest.
+/// What it says of a building more than half of whose height is below the ground at each of its corners, by more than
+/// `ground_contact_m`. It stands at the highest.
 [[nodiscard]] std::optional<Problem> below_ground(const Building& building, std::span<const Point3d> building_points,
                                                   const GroundHeightAt& ground_height);
 

@@ -83,7 +83,7 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   receivers
       ->add_option("--points", raw.points,
                    "The points of this file: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, another format of GDAL's, or CSV with "
-                   "x, y and perhaps z and id; azimuth and tilt are normals, other fields come back")
+                   "lon and lat or x and y, perhaps z and id; azimuth and tilt are normals, other fields come back")
       ->type_name(file_value);
   receivers->add_option("--along", raw.along, "Points along the lines of this vector file, such as the axes of streets")
       ->type_name(file_value);

@@ -110,7 +110,7 @@ TEST(Foundations, AFootprintReachesDownToTheGroundWhateverTheGap) {
   }
 }
 
-TEST(Foundations, ABuildingIsBelowTheGroundWithAllItsCorners) {
+TEST(Foundations, ABuildingIsBelowTheGroundByHalfOfItsHeightAtAllItsCorners) {
   const GroundHeightAt slope = [](Point2d p) { return 0.1 * p.x; };  // 4 m and 5 m at the walls
   const auto told = [&](double top_m) {
     scenes::SceneBuilder town;
@@ -118,7 +118,12 @@ TEST(Foundations, ABuildingIsBelowTheGroundWithAllItsCorners) {
     const CityModel city = town.city();
     return below_ground(city.buildings().front(), city.points(), slope);
   };
-  for (const double top_m : {6.0, 4.5, 3.97}) EXPECT_FALSE(told(top_m)) << top_m;
+  // From -5 m on, half of the height ends at the lowest ground, 4 m, with 13 m
+  for (const double top_m : {13.5, 13.0}) EXPECT_FALSE(told(top_m)) << top_m;
+  const auto half = told(12.0);
+  ASSERT_TRUE(half);
+  EXPECT_THAT(half->detail, HasSubstr("9.000 m of its 17.000 m are below the ground at each of its corners"));
+  EXPECT_EQ(half->position->z, 12.0);
   const auto buried = told(3.0);
   ASSERT_TRUE(buried);
   EXPECT_EQ(buried->code, ProblemCode::below_ground);
