@@ -81,8 +81,9 @@ PacketEnvelope::Bounds CertainSky::sky_above_borders(const PacketHorizon& ground
   return envelope_.bounds({upper, upper_ends_.batches(), silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
 }
 
-CertainSky::Bounds CertainSky::bounds(Open open, const ReceiverPacket& receivers, const Overhead& overhead,
+CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead,
                                       const Lanes& estimates) {
+  Open open = open_sky(grounded, receivers, overhead);
   Bounds bounds;
   for (std::size_t l = 0; l < receivers.count; ++l) {
     if (allowed_) decide(receivers, l, overhead, static_cast<double>(estimates[l]), open, bounds);

@@ -56,8 +56,12 @@ class CertainSky {
     std::uint32_t decided = 0;
     std::uint64_t wedges = 0;
   };
-  /// What is known of a packet of the group by its horizon, before rounding. For receivers in recesses, only the whole city knows
-  /// bounds.
+  /// For a packet of the group, its horizon and its estimates. For receivers in recesses, only the whole city knows bounds.
+  [[nodiscard]] Bounds bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead,
+                              const Lanes& estimates);
+
+ private:
+  /// What is known of a packet by its horizon, before rounding.
   struct Open {
     PacketEnvelope::Bounds sky;
     PacketEnvelope::Sums gaps{};
@@ -65,11 +69,6 @@ class CertainSky {
     /// How far the farther end is from a value between both, or from the nearer one.
     [[nodiscard]] double farther_end_from(double value, std::size_t lane) const;
   };
-  [[nodiscard]] Open open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead);
-  /// The bounds of the packet that was asked last, whose estimates these are.
-  [[nodiscard]] Bounds bounds(Open open, const ReceiverPacket& receivers, const Overhead& overhead, const Lanes& estimates);
-
- private:
   /// Whether something is in the group's sight.
   [[nodiscard]] bool has_overhangs() const { return !near_.overhangs.empty() || !far_.overhangs.empty(); }
   [[nodiscard]] bool has_undersides() const { return !near_.undersides.empty() || !far_.undersides.empty(); }
@@ -79,6 +78,7 @@ class CertainSky {
   void choose_gaps(const ReceiverPacket& receivers, std::uint32_t below);
   /// Rows of wedges, at least those of the far map.
   [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
+  [[nodiscard]] Open open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead);
   [[nodiscard]] PacketEnvelope::Bounds sky_above_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
   /// The terms of a receiver's wedges (PacketEnvelope::Terms). Above an overhang overhead there is no sky.
   struct OpenWedges {

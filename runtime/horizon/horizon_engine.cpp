@@ -131,13 +131,13 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   const Overhead overhead = recesses_.overhead_of(receivers, overhangs_.receivers_below(receivers));
   recesses_.draw_again(
       receivers, overhead, [](const ReceiverPacket&, PacketHorizon&) {}, horizons_.grounded);
-  const CertainSky::Open open = certain().open_sky(horizons_.grounded, receivers, overhead);
+  const PacketHorizon without_residual = horizons_.grounded;
   const SkyAtAzimuths at_azimuths = profile_ ? bounds_at_azimuths(receivers, overhead) : SkyAtAzimuths{};
   residual_.raise_to_estimate(receivers, horizons_.grounded);
   evaluate(receivers, overhead, answer);
   Lanes estimates{};
   for (std::size_t l = 0; l < receivers.count; ++l) estimates[l] = answer.svf[l].estimate;
-  const CertainSky::Bounds bounds = certain().bounds(open, receivers, overhead, estimates);
+  const CertainSky::Bounds bounds = certain().bounds(without_residual, receivers, overhead, estimates);
   for (std::size_t l = 0; l < receivers.count; ++l) {
     SvfInterval& svf = answer.svf[l];
     const float drawn = svf.estimate;
