@@ -36,8 +36,11 @@ class HighestPixels {
 
 /// A segment reaches over its length, a pixel at either end, and the receivers of a block; and begins anywhere in a square.
 inline constexpr HighestPixels::Around around_far_step{1, 14, 8}, around_long_step{4, 7, 6};
-static_assert((1 << 1) * 14 >= far_step + 3 + 15 + 1 && (1 << 1) * 8 >= far_step + 3 + 3 + 1);
-static_assert((1 << 4) * 7 >= long_step + 3 + 15 + 15 && (1 << 4) * 6 >= long_step + 3 + 3 + 15);
+constexpr bool reaches_over(const HighestPixels::Around& around, std::int32_t step) {
+  const std::int32_t square = 1 << around.shift, aside = step + 3 + square - 1;
+  return square * around.across >= aside + 15 && square * around.along >= aside + 3;
+}
+static_assert(reaches_over(around_far_step, far_step) && reaches_over(around_long_step, long_step));
 
 /// A height with JoinedPixels, as PixelFieldView has it.
 [[nodiscard]] float flagged_height(float height_m, std::uint32_t joined);

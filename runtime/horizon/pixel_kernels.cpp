@@ -98,21 +98,26 @@ FARLOD_LANES void pass_sides(const float* pixel, std::span<const SideCrossing> s
                  side.first.per_distance);
 }
 
+/// Passes all that a segment crosses.
+FARLOD_LANES void pass_near(std::span<const PixelCrossing> lines, std::span<const SideCrossing> sides, const float* pixel,
+                            std::ptrdiff_t stride, Horizon& horizon) {
+  for (std::size_t r = 0; r < PixelBlock::rows; ++r, pixel += stride) {
+    HorizonOfRow row(horizon, r);
+    pass_lines(pixel, lines, row);
+    pass_sides(pixel, sides, row);
+    horizon.slope[r] = row.slope;
+  }
+  horizon.note_lowest();
+}
+
 FARLOD_LANES void march_near(const PixelWindowView& window, const PixelPath& path, const PixelBlock& block, Horizon& horizon) {
   const float* const pixel = window.height_m + block.window_y * window.stride + block.window_x;
   std::uint32_t crossing = 0, side = 0;
   for (const NearSegment& segment : path.near) {
     const float highest_m = highest_from(window.highest, block.window_x + segment.x_low, block.window_y + segment.y_low);
-    if (horizon.may_be_raised_to(highest_m, segment.per_distance)) {
-      for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
-        HorizonOfRow row(horizon, r);
-        const float* const first = pixel + static_cast<std::ptrdiff_t>(r) * window.stride;
-        pass_lines(first, path.crossings.subspan(crossing, segment.crossings_end - crossing), row);
-        if (window.is_torn) pass_sides(first, path.sides.subspan(side, segment.sides_end - side), row);
-        horizon.slope[r] = row.slope;
-      }
-      horizon.note_lowest();
-    }
+    if (horizon.may_be_raised_to(highest_m, segment.per_distance))
+      pass_near(path.crossings.subspan(crossing, segment.crossings_end - crossing),
+                path.sides.subspan(side, window.is_torn ? segment.sides_end - side : 0), pixel, window.stride, horizon);
     crossing = segment.crossings_end;
     side = segment.sides_end;
   }
@@ -177,11 +182,8 @@ struct FarRay {
   FARLOD_LANES void march(const FarSegment& before, const FarSegment& segment) {
     const FarLines columns = columns_between(before.columns_end, segment.columns_end),
                    rows = rows_between(before.rows_end, segment.rows_end);
-    FarLines east_sides, north_sides;
-    if constexpr (is_torn) {
-      list_east_sides(before.east_sides_end, segment.east_sides_end, east_sides);
-      list_north_sides(before.north_sides_end, segment.north_sides_end, north_sides);
-    }
+    const FarLines east_sides = east_sides_between(before.east_sides_end, segment.east_sides_end),
+                   north_sides = north_sides_between(before.north_sides_end, segment.north_sides_end);
     for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
       HorizonOfRow row(horizon, r);
       const std::ptrdiff_t behind = static_cast<std::ptrdiff_t>(r) * field.stride;
@@ -214,19 +216,23 @@ struct FarRay {
     return lines;
   }
   FARLOD_LANES static float per_side(std::int32_t n, float lead) { return 1.0F / (static_cast<float>(n) - 0.5F - lead); }
-  FARLOD_LANES void list_east_sides(std::int32_t first, std::int32_t end, FarLines& sides) const {
-    for (std::int32_t n = first; n < end; ++n) {
+  FARLOD_LANES FarLines east_sides_between(std::int32_t first, std::int32_t end) const {
+    FarLines sides;
+    for (std::int32_t n = first; is_torn && n < end; ++n) {
       const FixedPoint y(half_before(n, path.north_per_column, path.north_first));
       const float* const from = pixel_at(x_sign() < 0 ? -n : n - 1, y.whole);
       sides.add({from, from + 1, from, 0.0F, path.columns_per_metre * per_side(n, path.column_lead)});
     }
+    return sides;
   }
-  FARLOD_LANES void list_north_sides(std::int32_t first, std::int32_t end, FarLines& sides) const {
-    for (std::int32_t n = first; n < end; ++n) {
+  FARLOD_LANES FarLines north_sides_between(std::int32_t first, std::int32_t end) const {
+    FarLines sides;
+    for (std::int32_t n = first; is_torn && n < end; ++n) {
       const FixedPoint x(half_before(n, path.east_per_row, path.east_first));
       const float* const from = pixel_at(x.whole, y_sign() < 0 ? -n : n - 1);
       sides.add({from, from + field.stride, from, 0.0F, path.rows_per_metre * per_side(n, path.row_lead)});
     }
+    return sides;
   }
 
   FARLOD_LANES bool may_be_raised(const HighestAround& highest, const FarSegment& segment) const {
