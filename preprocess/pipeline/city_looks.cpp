@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -59,30 +58,15 @@ void add_points(const ReadCity& city, HeightRange& range) {
   for (const Point3d& p : city.located.relief_points) range.add(p.z);
 }
 
-/// By how much buildings begin above a terrain.
-class FeetOnGround {
- public:
-  void add(double above_m, const std::string& building_id) {
-    if (above_m_.empty() || above_m < lowest_m_) {
-      lowest_m_ = above_m;
-      lowest_id_ = building_id;
-    }
-    if (above_m_.empty() || above_m > highest_m_) {
-      highest_m_ = above_m;
-      highest_id_ = building_id;
-    }
-    above_m_.push_back(above_m);
-  }
-  [[nodiscard]] std::optional<CityLooks::Feet> feet() && {
-    if (above_m_.empty()) return std::nullopt;
-    return CityLooks::Feet{heights_in(std::move(above_m_)), std::move(lowest_id_), std::move(highest_id_)};
-  }
-
- private:
-  std::vector<double> above_m_;
-  double lowest_m_ = 0.0, highest_m_ = 0.0;
-  std::string lowest_id_, highest_id_;
-};
+/// By how much a building begins above a terrain, and its number.
+using FootOnGround = std::pair<double, std::size_t>;
+std::optional<CityLooks::Feet> feet_in(std::span<const FootOnGround> feet, std::span<const Building> buildings) {
+  if (feet.empty()) return std::nullopt;
+  std::vector<double> above_m;
+  for (const auto& [m, building] : feet) above_m.push_back(m);
+  const auto [lowest, highest] = std::ranges::minmax(feet);
+  return CityLooks::Feet{heights_in(std::move(above_m)), buildings[lowest.second].id, buildings[highest.second].id};
+}
 
 /// A city without buildings: the walls that a raster shows, and how far it reaches up and down.
 void look_at_ground(const ReadCity& city, CityLooks& looks) {
@@ -116,14 +100,14 @@ void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   const CityModel& model = city.located.city;
   const GroundSource source = source_of(city);
   std::vector<double> heights_m;
-  FeetOnGround feet;
+  std::vector<FootOnGround> feet;
   HeightRange ground;
-  model.for_each_building([&](std::size_t, const Building& b) {
+  model.for_each_building([&](std::size_t n, const Building& b) {
     const auto [z, outline] = reach_of(model.points_of(b));
     if (z.is_empty()) return;
     const auto survey_m = survey_at(city, 0.5 * (outline.low + outline.high));
     if (survey_m) ground.add(*survey_m);
-    if (survey_m && tells_foot(b)) feet.add(z.low - *survey_m, b.id);
+    if (survey_m && tells_foot(b)) feet.emplace_back(z.low - *survey_m, n);
     if (source == GroundSource::bases && tells_foot(b)) ground.add(z.low);
     if (b.height_reference != HeightReference::down_to_ground)
       heights_m.push_back(z.high - z.low);
@@ -134,7 +118,7 @@ void look_at_buildings(const ReadCity& city, CityLooks& looks) {
   if (!heights_m.empty()) looks.heights = heights_in(std::move(heights_m));
   if (source == GroundSource::nothing) ground.add(0.0);
   if (!ground.is_empty()) looks.ground = CityLooks::Ground{ground.low, ground.high, source};
-  if (looks.ground) looks.ground->feet = std::move(feet).feet();
+  if (looks.ground) looks.ground->feet = feet_in(feet, model.buildings());
 }
 
 }  // namespace

@@ -172,8 +172,9 @@ std::optional<std::string> note_outside_of_grid(const NamedPoints& named, const 
 }
 
 std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const PackageDescription& city) {
-  const std::vector<std::size_t> beyond = rows_beyond(named, city);
-  if (beyond.size() == named.told_as_far) return std::nullopt;
+  std::vector<std::size_t> beyond = rows_beyond(named, city);
+  std::erase_if(beyond, [&](std::size_t n) { return !is_near({named.x_m[n], named.y_m[n]}, city); });
+  if (beyond.empty()) return std::nullopt;
   const std::size_t first = beyond.front();
   return fmt::format(
       "{} of {} points {} more than {:g} m beyond the grid of the city and {} no answer; "

@@ -27,8 +27,8 @@ void require_answers_of_points(const NamedPoints& named, const Reasons& reasons,
 [[nodiscard]] std::optional<std::string> note_outside_of_grid(const NamedPoints& named, const PointAnswers& answers,
                                                               const SvfOptions& options, const PackageDescription& city);
 
-/// What to tell of points that lie farther away, beside others: how many, and which is the first. Nothing where a note of `named`
-/// tells of them all.
+/// What to tell of points that lie farther away, beside others: how many, and which is the first. Notes of `named` tell of those
+/// that are far from the city.
 [[nodiscard]] std::optional<std::string> note_of_points_beyond(const NamedPoints& named, const PackageDescription& city);
 
 /// How many points lie below the ground outside of buildings. Inside of them, no height above the ground has an answer, either.

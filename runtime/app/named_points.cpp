@@ -124,11 +124,6 @@ bool is_on_some_map(Point2d p) {
   return std::abs(p.x) < beyond_all_maps_m && std::abs(p.y) < beyond_all_maps_m;
 }
 
-bool is_near(Point2d p, const PackageDescription& package) {
-  const auto& [low, high] = package.outline_projected;
-  return std::hypot(std::max({low.x - p.x, p.x - high.x, 0.0}), std::max({low.y - p.y, p.y - high.y, 0.0})) <= farthest_place_m;
-}
-
 /// How many lie near the city.
 std::size_t near_count(const NamedPoints& named, const PackageDescription& package) {
   std::size_t count = 0;
@@ -192,7 +187,6 @@ void tell_far_points(std::span<const Point2d> given, const std::string& crs, con
   for (std::size_t n = 0; n < given.size(); ++n)
     if (named.has_place(n) && !is_near({named.x_m[n], named.y_m[n]}, package) && count++ == 0) first = n;
   if (count == 0 || near_count(named, package) == 0) return;
-  named.told_as_far = count;
   const Point2d city = 0.5 * (package.outline_projected.low + package.outline_projected.high);
   named.notes.push_back(
       fmt::format("{} of {} points {} more than 100 km from the city and {} no answer: {}point {} in row {}, at {:.10g}, "
@@ -300,6 +294,11 @@ void NamedPoints::add_reasons(const Reasons& reasons, const AnswerColumns& colum
     const auto found = reasons.find(n);
     return found == reasons.end() ? std::string() : found->second.words;
   });
+}
+
+bool is_near(Point2d p, const PackageDescription& package) {
+  const auto& [low, high] = package.outline_projected;
+  return std::hypot(std::max({low.x - p.x, p.x - high.x, 0.0}), std::max({low.y - p.y, p.y - high.y, 0.0})) <= farthest_place_m;
 }
 
 NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package) {

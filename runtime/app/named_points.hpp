@@ -37,8 +37,7 @@ struct NamedPoints {
   Attributes attributes;
   std::vector<std::string> notes;
   std::size_t skipped_features = 0;
-  std::string doubtful_z;       ///< as RequestedPoints::doubtful_z
-  std::size_t told_as_far = 0;  ///< points that a note says to be far from the city
+  std::string doubtful_z;  ///< as RequestedPoints::doubtful_z
 
   explicit NamedPoints(RequestedPoints requested);
   /// Leaves out the points outside of a region.
@@ -59,6 +58,10 @@ struct NamedPoints {
 
 /// Those of --points, --along or --at, in the CRS of the package. Throws PointsError.
 [[nodiscard]] NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package);
+
+/// Whether a place in the CRS of the package is not so far from the city that something is wrong with its coordinates. `notes`
+/// tell of those that are.
+[[nodiscard]] bool is_near(Point2d p, const PackageDescription& package);
 
 /// The rows of the table. Both must outlive them.
 [[nodiscard]] PointRows rows_of(const NamedPoints& named, const PointAnswers& answers);
