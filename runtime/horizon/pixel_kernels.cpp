@@ -182,8 +182,8 @@ struct FarRay {
   FARLOD_LANES void march(const FarSegment& before, const FarSegment& segment) {
     const FarLines columns = columns_between(before.columns_end, segment.columns_end),
                    rows = rows_between(before.rows_end, segment.rows_end);
-    const FarLines east_sides = east_sides_between(before.east_sides_end, segment.east_sides_end),
-                   north_sides = north_sides_between(before.north_sides_end, segment.north_sides_end);
+    const FarLines east_sides = is_torn ? east_sides_between(before.east_sides_end, segment.east_sides_end) : FarLines(),
+                   north_sides = is_torn ? north_sides_between(before.north_sides_end, segment.north_sides_end) : FarLines();
     for (std::size_t r = 0; r < PixelBlock::rows; ++r) {
       HorizonOfRow row(horizon, r);
       const std::ptrdiff_t behind = static_cast<std::ptrdiff_t>(r) * field.stride;
@@ -218,7 +218,7 @@ struct FarRay {
   FARLOD_LANES static float per_side(std::int32_t n, float lead) { return 1.0F / (static_cast<float>(n) - 0.5F - lead); }
   FARLOD_LANES FarLines east_sides_between(std::int32_t first, std::int32_t end) const {
     FarLines sides;
-    for (std::int32_t n = first; is_torn && n < end; ++n) {
+    for (std::int32_t n = first; n < end; ++n) {
       const FixedPoint y(half_before(n, path.north_per_column, path.north_first));
       const float* const from = pixel_at(x_sign() < 0 ? -n : n - 1, y.whole);
       sides.add({from, from + 1, from, 0.0F, path.columns_per_metre * per_side(n, path.column_lead)});
@@ -227,7 +227,7 @@ struct FarRay {
   }
   FARLOD_LANES FarLines north_sides_between(std::int32_t first, std::int32_t end) const {
     FarLines sides;
-    for (std::int32_t n = first; is_torn && n < end; ++n) {
+    for (std::int32_t n = first; n < end; ++n) {
       const FixedPoint x(half_before(n, path.east_per_row, path.east_first));
       const float* const from = pixel_at(x.whole, y_sign() < 0 ? -n : n - 1);
       sides.add({from, from + field.stride, from, 0.0F, path.rows_per_metre * per_side(n, path.row_lead)});
