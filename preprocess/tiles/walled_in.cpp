@@ -9,9 +9,14 @@
 
 #include "city/geometry.hpp"
 #include "tiles/contacts.hpp"
+#include "tiles/solid_to_ground.hpp"
 
 namespace farlod::tiles {
 namespace {
+
+/// What is so near to a wall in the plan is on it: more than coordinates are rounded by. What sticks out farther is seen from
+/// below past the end of the wall.
+constexpr double on_wall_m = least_sliver_m;
 
 /// Whether a slab passes over a wall, higher than a contact above its upper border.
 bool passes_over(const Slab& slab, const WallProfile& wall) {
@@ -116,7 +121,7 @@ std::vector<ShareStretch> WalledIn::stretches_of(const Segment3d& segment) const
   std::vector<ShareStretch> within;
   for (std::size_t n = 1; n < places.size(); ++n) {
     const Point2d middle = a + 0.5 * (places[n - 1] + places[n]) * along;
-    if (places[n] > places[n - 1] && (holds(middle) || distance_m(middle) <= contact_m))
+    if (places[n] > places[n - 1] && (holds(middle) || distance_m(middle) <= on_wall_m))
       within.push_back({places[n - 1], places[n]});
   }
   return tidied(std::move(within), contact_m / run_m);

@@ -175,6 +175,23 @@ TEST(BorderRoles, AHouseWithEavesIsGroundedWithinItsWalls) {
                                                                 {{21, 15, 8}, {21, 21, low_m}}}));
 }
 
+TEST(BorderRoles, AHipThatLeavesTheWallsBesideTheirCornerIsGroundedUpToTheWall) {
+  // The eaves reach 2 cm farther in the west: the hips there meet the line of a wall 1.7 cm outside of the other one
+  std::vector<Face> faces = walls_and_floor();
+  faces[3] = {{20, 10, 0}, {20, 20, 0}, {20, 20, 5}, {20, 10, 5}};
+  faces[4] = {{10, 20, 0}, {10, 10, 0}, {10, 10, 5}, {10, 20, 5}};
+  constexpr Point3d top{15, 15, 8};
+  const Face eaves{{8.98, 9, low_m}, {21, 9, low_m}, {21, 21, low_m}, {8.98, 21, low_m}};
+  for (std::size_t n = 0; n < 4; ++n) faces.push_back({eaves[n], eaves[(n + 1) % 4], top});
+  const Borders borders(faces);
+  std::size_t hips = 0;
+  for (const auto& [a, b] : borders.grounded) {
+    for (const Point3d& p : {a, b}) EXPECT_GE(std::min({p.x - 10, 20 - p.x, p.y - 10, 20 - p.y}), -1e-4) << p.x << ' ' << p.y;
+    hips += std::max(a.z, b.z) > 5.5 ? 1 : 0;
+  }
+  EXPECT_EQ(hips, 4U);
+}
+
 TEST(BorderRoles, WithinWallsNothingMayFloat) {
   // A wall is missing: the others form no ring
   std::vector<Face> open = house_with_eaves();
