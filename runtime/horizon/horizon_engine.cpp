@@ -118,7 +118,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& ov
   horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::lowest);
   const auto [sky, correction] = sky_above(horizons_.upper_borders, receivers);
   corrections_ = correction;
-  const Lanes in_gaps = sky_in_gaps(receivers, overhead);
+  const Lanes in_gaps = sky_in_gaps(receivers, overhead, sky);
   for (std::size_t l = 0; l < sky.size(); ++l) {
     const float sum = std::min(sky[l] + in_gaps[l], 1.0F);
     answer.svf[l] = answer.drawn[l] = {sum, sum, sum};
@@ -198,7 +198,7 @@ void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPa
   (void)jumps_.sky_above(horizon, SkyWeight::cosine, receivers, silhouettes_.upper_ends, {.for_light = profile_->light_sky});
 }
 
-Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead) {
+Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead, const Lanes& above) {
   if (horizons_.lower_borders.exceeds(horizons_.grounded) == 0) return {};
   // What is above the upper borders counts already
   horizons_.lower_borders.lower_to(horizons_.upper_borders);
@@ -206,8 +206,9 @@ Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead
   Lanes sky = sum(gap_rows_);
   std::uint32_t asked = 0;
   for (std::size_t l = 0; l < receivers.count; ++l) {
-    if (sky[l] > gap_tolerance_) asked |= 1U << l;
-    sky[l] = sky[l] > gap_tolerance_ ? 0.0F : sky_in_small_gaps * sky[l];
+    const bool is_small = sky[l] <= gap_tolerance_ * above[l];
+    if (!is_small) asked |= 1U << l;
+    sky[l] = is_small ? sky_in_small_gaps * sky[l] : 0.0F;
   }
   const std::span<const OpenGap> open = asked == 0 ? std::span<const OpenGap>() : open_gaps(receivers, overhead, asked);
   for (const OpenGap& gap : open) sky[gap.lane] += gap.sky / static_cast<float>(azimuths_.size());

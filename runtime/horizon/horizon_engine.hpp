@@ -49,8 +49,8 @@ enum class JumpPlaces : std::uint8_t {
 /// "What is grounded, and what overhangs".
 class HorizonEngine {
  public:
-  /// All must outlive it. Of a receiver that has no more sky than `gap_tolerance` in all of its gaps together, these are
-  /// estimated: the error is less than that.
+  /// All must outlive it. Of a receiver whose gaps together have no more sky than `gap_tolerance` times what it sees above its
+  /// horizons, they are estimated: the error is less than that.
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, float gap_tolerance, JumpPlaces jumps = JumpPlaces::at_edge_ends);
   /// From now on, evaluate_with_bounds keeps this error.
@@ -89,8 +89,8 @@ class HorizonEngine {
   }
   /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
-  /// The sky in the gaps of `horizons_`, as drawn.
-  [[nodiscard]] Lanes sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead);
+  /// The sky in the gaps of `horizons_`, as drawn, for receivers that see so much sky `above` them.
+  [[nodiscard]] Lanes sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead, const Lanes& above);
   /// What the facets leave open of the gaps of those receivers that are asked for.
   [[nodiscard]] std::span<const OpenGap> open_gaps(const ReceiverPacket& receivers, const Overhead& overhead,
                                                    std::uint32_t asked);
