@@ -96,8 +96,23 @@ const EdgesInWedges::InWedge& EdgesInWedges::reaching(std::size_t wedge, float s
 
 void EdgesInWedges::mark_reached(std::span<std::uint8_t> wedges) {
   if (!has_spans_) find_spans();
-  for (std::size_t n = 0; n < first_.size(); ++n)
-    for (std::size_t m = 0; m < count_[n]; ++m) wedges[(first_[n] + m) % wedges.size()] = 1;
+  // How many spans begin in each wedge, less those that end before it; one that goes on past the end of the turn ends there, and
+  // begins again in the first wedge
+  const std::size_t turn = wedges.size();
+  begun_.assign(turn + 1, 0);
+  for (std::size_t n = 0; n < first_.size(); ++n) {
+    const std::size_t end = std::size_t{first_[n]} + count_[n];
+    ++begun_[first_[n]];
+    --begun_[std::min(end, turn)];
+    if (end <= turn) continue;
+    ++begun_[0];
+    --begun_[end - turn];
+  }
+  std::int32_t spans = 0;
+  for (std::size_t k = 0; k < turn; ++k) {
+    spans += begun_[k];
+    if (spans > 0) wedges[k] = 1;
+  }
 }
 
 void EdgesInWedges::copy(std::uint32_t number, std::size_t to, InWedge& wedge) const {
