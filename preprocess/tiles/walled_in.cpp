@@ -124,7 +124,7 @@ std::vector<ShareStretch> WalledIn::stretches_of(const Segment3d& segment) const
     if (places[n] > places[n - 1] && (holds(middle) || distance_m(middle) <= on_wall_m))
       within.push_back({places[n - 1], places[n]});
   }
-  return tidied(std::move(within), contact_m / run_m);
+  return tidied(std::move(within), on_wall_m / run_m);
 }
 
 }  // namespace farlod::tiles

@@ -192,6 +192,13 @@ TEST(BorderRoles, AHipThatLeavesTheWallsBesideTheirCornerIsGroundedUpToTheWall) 
   EXPECT_EQ(hips, 4U);
 }
 
+TEST(BorderRoles, ARidgeIsGroundedUpToTheWallHoweverLittleItReachesBeyond) {
+  std::vector<Face> faces = walls_and_floor();
+  faces.push_back({{9.985, 9, low_m}, {20.015, 9, low_m}, {20.015, 15, 8}, {9.985, 15, 8}});
+  faces.push_back({{20.015, 21, low_m}, {9.985, 21, low_m}, {9.985, 15, 8}, {20.015, 15, 8}});
+  EXPECT_EQ(grounded_ridge(faces), (std::vector<Segment3d>{{{10, 15, 8}, {20, 15, 8}}}));
+}
+
 TEST(BorderRoles, WithinWallsNothingMayFloat) {
   // A wall is missing: the others form no ring
   std::vector<Face> open = house_with_eaves();
