@@ -96,22 +96,10 @@ const EdgesInWedges::InWedge& EdgesInWedges::reaching(std::size_t wedge, float s
 
 void EdgesInWedges::mark_reached(std::span<std::uint8_t> wedges) {
   if (!has_spans_) find_spans();
-  // How many spans begin in each wedge, less those that end before it; one that goes on past the end of the turn ends there, and
-  // begins again in the first wedge
-  const std::size_t turn = wedges.size();
-  begun_.assign(turn + 1, 0);
   for (std::size_t n = 0; n < first_.size(); ++n) {
-    const std::size_t end = std::size_t{first_[n]} + count_[n];
-    ++begun_[first_[n]];
-    --begun_[std::min(end, turn)];
-    if (end <= turn) continue;
-    ++begun_[0];
-    --begun_[end - turn];
-  }
-  std::int32_t spans = 0;
-  for (std::size_t k = 0; k < turn; ++k) {
-    spans += begun_[k];
-    if (spans > 0) wedges[k] = 1;
+    const std::size_t to_end = std::min<std::size_t>(count_[n], wedges.size() - first_[n]);
+    std::ranges::fill(wedges.subspan(first_[n], to_end), std::uint8_t{1});
+    std::ranges::fill(wedges.first(count_[n] - to_end), std::uint8_t{1});
   }
 }
 

@@ -66,7 +66,6 @@ class EdgesInWedges {
   std::vector<InWedge> wedges_;
   std::vector<std::uint32_t> first_, count_, found_;
   std::vector<float> max_slope_;
-  std::vector<std::int32_t> begun_;  ///< working memory
 };
 
 }  // namespace farlod
