@@ -116,10 +116,8 @@ void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t belo
   };
   may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
   if (below == 0) mark(near_.overhangs, far_.overhangs, may_hide_);
-  under_border_ = in_wedges_.overhang.reached;
-  mark(silhouettes_.near.undersides, silhouettes_.far.undersides, under_border_);
   for (std::size_t k = 0; k < reached_.size(); ++k)
-    if (may_hide_[k] != 0) reached_[k] = under_border_[k];
+    if (may_hide_[k] != 0) reached_[k] = 1;
   if (residual_.is_grounded()) return;
   chosen_borders_ = in_wedges_.overhang_below_low.rows;
   for (std::size_t k = 0; k < reached_.size(); ++k)

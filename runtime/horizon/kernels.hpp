@@ -119,6 +119,7 @@ struct SkyKernels {
 struct GapKernels;
 struct WedgeEndKernels;
 struct WedgeSkyKernels;
+struct WedgePairKernels;
 struct PixelKernels;
 struct LightKernels;
 
@@ -130,6 +131,7 @@ struct KernelTarget {
   const GapKernels* gap;
   const WedgeEndKernels* wedge_end;
   const WedgeSkyKernels* wedge_sky;
+  const WedgePairKernels* wedge_pair;
   const PixelKernels* pixel;
   const LightKernels* light;
 };
@@ -143,6 +145,7 @@ struct KernelTarget {
 [[nodiscard]] const GapKernels& gap_kernels();
 [[nodiscard]] const WedgeEndKernels& wedge_end_kernels();
 [[nodiscard]] const WedgeSkyKernels& wedge_sky_kernels();
+[[nodiscard]] const WedgePairKernels& wedge_pair_kernels();
 [[nodiscard]] const PixelKernels& pixel_kernels();
 [[nodiscard]] const LightKernels& light_kernels();
 

@@ -85,12 +85,7 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   list_doubtful_wedges(r, gaps.reached.data());
   const Hiding nothing{none_, none_};
   Sums sums{};
-  for (std::size_t l = 0; l < r.count; ++l) {
-    find_doubts({occluders, nothing, r, l});
-    // Between edges, a lower border that is no higher than this receiver's horizons may show sky, too
-    for (const Doubt& d : doubts_)
-      terms_.gaps[d.wedge][l] = most_in_gap(std::max(gaps.borders[d.wedge][l], lower_[d.wedge][l] * shape_.widened), r, l, d);
-  }
+  for (std::size_t l = 0; l < r.count; ++l) bound_gaps({occluders, nothing, r, l}, gaps.borders);
   for (std::size_t k = 0; k < wedges_.size(); ++k) {
     if (gaps.reached[k] == 0) continue;
     for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
@@ -143,20 +138,39 @@ void PacketEnvelope::list_doubtful_wedges(const ReceiverPacket& r, const std::ui
 // --- Doubts: first from the two edges that are highest at both azimuths
 // -----------------------------------------------------------
 
-void PacketEnvelope::find_doubts(const Eye& eye) {
-  doubts_.clear();
+template <class Answer>
+void PacketEnvelope::visit_pairs(const Eye& eye, const Answer& answer) {
   const std::vector<std::uint32_t>& wedges = doubtful_[eye.lane];
   WedgePairs pairs;
-  PairsAnswer answer;
   pairs.normal_x = eye.receivers.normal_x[eye.lane];
   pairs.normal_y = eye.receivers.normal_y[eye.lane];
   pairs.normal_z = eye.receivers.normal_z[eye.lane];
   for (std::size_t first = 0; first < wedges.size(); first += packet_lanes) {
     const std::size_t count = std::min(packet_lanes, wedges.size() - first);
     for (std::size_t n = 0; n < packet_lanes; ++n) put_pair(eye, wedges[first + std::min(n, count - 1)], n, pairs);
-    wedge_sky_kernels().bound_pairs(pairs, shape_, wedge_weight_, answer);
-    for (std::size_t n = 0; n < count; ++n) put_doubt(eye, wedges[first + n], answer, n);
+    answer(std::span(wedges).subspan(first, count), pairs);
   }
+}
+
+void PacketEnvelope::find_doubts(const Eye& eye) {
+  doubts_.clear();
+  visit_pairs(eye, [&](std::span<const std::uint32_t> wedges, const WedgePairs& pairs) {
+    PairsAnswer answer;
+    wedge_pair_kernels().bound_pairs(pairs, shape_, wedge_weight_, answer);
+    for (std::size_t n = 0; n < wedges.size(); ++n) put_doubt(eye, wedges[n], answer, n);
+  });
+}
+
+void PacketEnvelope::bound_gaps(const Eye& eye, std::span<const Row> borders) {
+  const std::size_t l = eye.lane;
+  visit_pairs(eye, [&](std::span<const std::uint32_t> wedges, const WedgePairs& pairs) {
+    alignas(64) std::array<float, packet_lanes> higher{}, most;
+    // Between edges, a lower border that is no higher than this receiver's horizons may show sky, too
+    for (std::size_t n = 0; n < wedges.size(); ++n)
+      higher[n] = std::max(borders[wedges[n]][l], lower_[wedges[n]][l] * shape_.widened);
+    wedge_pair_kernels().bound_gaps(pairs, higher.data(), shape_, wedge_weight_, most.data());
+    for (std::size_t n = 0; n < wedges.size(); ++n) terms_.gaps[wedges[n]][l] = most[n];
+  });
 }
 
 void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, WedgePairs& pairs) const {
@@ -271,7 +285,7 @@ void PacketEnvelope::find_edges_above(const Eye& eye, const Doubt& d, const Edge
   above_.clear();
   for (std::size_t n = 0; n < edges.size; n += packet_lanes) {
     const std::size_t count = std::min(packet_lanes, edges.size - n);
-    std::uint32_t bits = d.is_unknown ? ~0U : wedge_sky_kernels().find_above(edges.edges[n / packet_lanes], seen);
+    std::uint32_t bits = d.is_unknown ? ~0U : wedge_pair_kernels().find_above(edges.edges[n / packet_lanes], seen);
     bits &= (1U << count) - 1U;
     for (; bits != 0; bits &= bits - 1)
       above_.push_back(static_cast<std::uint32_t>(n) + static_cast<std::uint32_t>(std::countr_zero(bits)));
@@ -333,36 +347,6 @@ double PacketEnvelope::term_of(double sky, std::size_t k, const ReceiverPacket& 
     return std::atan2(1.0, slope) * (tau * along - left) / std::sqrt(1.0 + tau * tau);
   };
   return sky - (border(w.tangent, slope_at(next(k), lane)) - border(0.0, slope_at(k, lane)));
-}
-
-float PacketEnvelope::most_in_gap(float border, const ReceiverPacket& r, std::size_t l, const Doubt& d) const {
-  if (!(border > d.lid)) return 0.0F;
-  const Wedge& w = wedges_[d.wedge];
-  const Point3d normal = normal_of(r, l);
-  const double between = most_sky_between(d.lid, border, normal, w);
-  if (wedge_weight_ != WedgeWeight::cosine_up || d.is_unknown) return static_cast<float>(between);
-  const double top = std::max(border, tops_[d.wedge][l] * shape_.widened);
-  const double below_top = d.high - (std::isinf(top) ? 0.0 : shape_.angle / (1.0 + top * top));
-  return static_cast<float>(std::clamp(below_top, 0.0, between));
-}
-
-/// As the kernels have it.
-double PacketEnvelope::most_sky_between(double low, double high, const Point3d& normal, const Wedge& w) const {
-  const auto sine = [](double slope) { return std::isinf(slope) ? 1.0 : slope / std::sqrt(1.0 + slope * slope); };
-  if (weight_ == SkyWeight::solid_angle) return shape_.angle * std::max(0.0, sine(high) - sine(low));
-  const double along = normal.x * w.from.x + normal.y * w.from.y, left = normal.y * w.from.x - normal.x * w.from.y;
-  const double most = std::max(along, along * shape_.cosine + left * shape_.sine);
-  const double outward = most > 0.0 ? shape_.widened * most : most;
-  // F between two slopes, of those that are in front there
-  const double border = normal.z == 0.0 ? std::numeric_limits<double>::infinity() : std::abs(outward / normal.z);
-  const double lowest = outward > 0.0 ? 0.0 : normal.z > 0.0 ? border : std::numeric_limits<double>::infinity();
-  const double highest = outward > 0.0 && normal.z < 0.0 ? border : std::numeric_limits<double>::infinity();
-  const auto above = [&](double slope) {
-    const double t = std::min(std::max(slope, lowest), highest);
-    if (std::isinf(t)) return 0.0;
-    return outward * (std::atan2(1.0, t) - t / (1.0 + t * t)) + normal.z / (1.0 + t * t);
-  };
-  return shape_.angle * std::max(0.0, above(low) - above(high));
 }
 
 void PacketEnvelope::keep_terms_of(std::size_t l) {

@@ -96,7 +96,12 @@ class PacketEnvelope {
   SimpleSums sum_simple(const Hiding& hiding, const ReceiverPacket& receivers);
   /// Those with bits, and all that are asked for who looks down.
   void list_doubtful_wedges(const ReceiverPacket& receivers, const std::uint8_t* asked);
+  /// Calls answer(wedges, pairs) for sixteen doubtful wedges at once.
+  template <class Answer>
+  void visit_pairs(const Eye& eye, const Answer& answer);
   void find_doubts(const Eye& eye);
+  /// Sets the terms of gaps in these wedges, below borders that are rows of wedges.
+  void bound_gaps(const Eye& eye, std::span<const Row> borders);
   void put_pair(const Eye& eye, std::size_t k, std::size_t n, WedgePairs& pairs) const;
   void put_edge(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
   void put_plane(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
@@ -107,8 +112,6 @@ class PacketEnvelope {
   void find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, Doubt& doubt);
   void add_level(const Wedge& wedge, double first, double last);
   void add_edges(const Eye& eye, const EdgesInWedges::InWedge& edges, std::size_t k);
-  [[nodiscard]] float most_in_gap(float border, const ReceiverPacket& receivers, std::size_t lane, const Doubt& doubt) const;
-  [[nodiscard]] double most_sky_between(double low, double high, const Point3d& normal, const Wedge& wedge) const;
   void keep_terms_of(std::size_t lane);
 
   [[nodiscard]] std::size_t next(std::size_t k) const { return k + 1 < wedges_.size() ? k + 1 : 0; }

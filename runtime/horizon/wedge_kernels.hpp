@@ -126,8 +126,14 @@ struct WedgeSkyKernels {
   void (*find_simple_gaps)(const NumberedHorizon& horizon, const AskedBorders& asked, const ReceiverPacket& receivers,
                            const AzimuthView& azimuths, const WedgeShape& shape, WedgeWeight weight, std::uint16_t* others,
                            float* tops, float* gaps);
+};
+
+struct WedgePairKernels {
   /// The sky of wedges that are not simple, from both edges alone, in the same terms.
   void (*bound_pairs)(const WedgePairs& pairs, const WedgeShape& shape, WedgeWeight weight, PairsAnswer& answer);
+  /// The most sky between both edges and higher borders, which hides only what they do: in radians. Below `top`, all that hides
+  /// sky of the wedge is.
+  void (*bound_gaps)(const WedgePairs& pairs, const float* borders, const WedgeShape& shape, WedgeWeight weight, float* most);
   /// The edges that may rise above an envelope through three heights: a bit for each.
   std::uint32_t (*find_above)(const WedgeEdges& edges, const WedgeEye& eye);
 };

@@ -220,6 +220,7 @@ struct Made {
   std::vector<std::uint16_t> others;
   SimpleSums sums;
   PairsAnswer pairs;
+  alignas(64) std::array<float, 16> most;
 };
 
 class WedgeTargets : public PacketEnvelopes {
@@ -234,6 +235,7 @@ class WedgeTargets : public PacketEnvelopes {
            std::vector<std::int32_t>(count * lanes),
            std::vector<std::uint16_t>(count),
            {},
+           {},
            {}};
     const WedgeShape w{0.1F, std::cos(0.1F), std::sin(0.1F), std::tan(0.1F), 1.01F};
     target.wedge_sky->raise_to_planes(horizon_.slopes(), horizon_.numbers(), receivers_, azimuths_.view(), m.raised.data(),
@@ -247,7 +249,10 @@ class WedgeTargets : public PacketEnvelopes {
                                        azimuths_.view(), w, WedgeWeight::cosine, m.others.data(), m.tops.data(), m.gaps.data());
     target.wedge_sky->sum_simple({m.raised.data(), m.numbers.data()}, {hiding.front().data(), hiding.front().data()}, receivers_,
                                  azimuths_.view(), w, WedgeWeight::solid_angle, m.others.data(), m.tops.data(), m.sums);
-    target.wedge_sky->bound_pairs(pairs(), w, WedgeWeight::cosine, m.pairs);
+    target.wedge_pair->bound_pairs(pairs(), w, WedgeWeight::cosine, m.pairs);
+    alignas(64) std::array<float, 16> borders;
+    borders.fill(0.9F);
+    target.wedge_pair->bound_gaps(pairs(), borders.data(), w, WedgeWeight::cosine, m.most.data());
     return m;
   }
   [[nodiscard]] WedgePairs pairs() const {
@@ -269,6 +274,7 @@ class WedgeTargets : public PacketEnvelopes {
 TEST_P(WedgeTargets, GiveTheSameBits) {
   const Made baseline = made_by(runnable_kernels().back());
   EXPECT_GT(*std::max_element(baseline.tops.begin(), baseline.tops.end()), 0.0F);
+  EXPECT_GT(*std::max_element(baseline.most.begin(), baseline.most.end()), 0.0F);
   for (const KernelTarget& target : runnable_kernels()) {
     const Made m = made_by(target);
     EXPECT_EQ(m.lower, baseline.lower) << target.name;
@@ -276,6 +282,7 @@ TEST_P(WedgeTargets, GiveTheSameBits) {
     EXPECT_EQ(m.tops, baseline.tops) << target.name;
     EXPECT_EQ(m.gaps, baseline.gaps) << target.name;
     EXPECT_EQ(m.others, baseline.others) << target.name;
+    EXPECT_EQ(m.most, baseline.most) << target.name;
     EXPECT_EQ(std::memcmp(m.sums.low, baseline.sums.low, sizeof m.sums.low), 0) << target.name;
     EXPECT_EQ(std::memcmp(m.sums.high, baseline.sums.high, sizeof m.sums.high), 0) << target.name;
     EXPECT_EQ(std::memcmp(&m.pairs, &baseline.pairs, sizeof m.pairs), 0) << target.name;
