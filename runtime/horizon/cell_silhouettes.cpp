@@ -79,17 +79,18 @@ CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const 
   silhouettes.grounded = silhouettes.grounded.facing(box);
   keep_facing(silhouettes.near, box);
   keep_facing(silhouettes.far, box);
-  silhouettes.number_upper_borders();
+  silhouettes.number_borders();
   return silhouettes;
 }
 
-void CellSilhouettes::number_upper_borders() {
+void CellSilhouettes::number_borders() {
   const std::array<SilhouetteEdges*, 3> lists{&grounded, &near.overhangs, &far.overhangs};
   std::size_t first = 0;
   for (SilhouetteEdges* edges : lists) {
     edges->number_from(static_cast<std::int32_t>(first));
     first += edges->size();
   }
+  far.undersides.number_from(static_cast<std::int32_t>(near.undersides.size()));
   upper_ends = BorderEnds(std::array<const SilhouetteEdges*, 3>{lists[0], lists[1], lists[2]});
 }
 

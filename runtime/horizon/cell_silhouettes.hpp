@@ -34,8 +34,8 @@ struct CellSilhouettes : CellOverhangs {
   std::vector<HorizonEdge> over_recesses;
   BorderEnds upper_ends;  ///< of the upper borders: `grounded`, near.overhangs, far.overhangs, which are numbered in this order
 
-  /// Numbers the upper borders, and finds their ends.
-  void number_upper_borders();
+  /// Numbers the upper borders, and the lower ones by themselves (near, far); finds the ends of the upper ones.
+  void number_borders();
 };
 
 /// The edges of the cells nearby (near_cells_of), the explicit edges of the far map, and those of a far terrain in its own frame,

@@ -19,6 +19,7 @@ constexpr double turn_rad = 2.0 * std::numbers::pi;
 CertainSky::CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
                        const ResidualHorizon& residual)
     : silhouettes_(silhouettes),
+      lower_ends_(std::array<const SilhouetteEdges*, 2>{&silhouettes.near.undersides, &silhouettes.far.undersides}),
       residual_(residual),
       weight_(weight),
       wanted_(wanted_width),
@@ -45,8 +46,10 @@ void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const 
   keep(silhouettes_.far.overhangs, far_.overhangs);
   keep(silhouettes_.far.undersides, far_.undersides);
   const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
-  grounded_ends_.find(std::span(upper).first(1), silhouettes_.upper_ends);
-  if (has_overhangs()) upper_ends_.find(upper, silhouettes_.upper_ends);
+  upper_places_.find(std::span(upper).first(1), silhouettes_.upper_ends);
+  upper_places_.find_further(std::span(upper).subspan(1), silhouettes_.upper_ends);
+  const std::array<const SilhouetteEdges*, 2> lower{&near_.undersides, &far_.undersides};
+  lower_places_.find(lower, lower_ends_);
 }
 
 double CertainSky::Open::farther_end_from(double value, std::size_t lane) const {
@@ -58,6 +61,8 @@ double CertainSky::Open::farther_end_from(double value, std::size_t lane) const 
 /// lower borders.
 CertainSky::Open CertainSky::open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead) {
   residual_.find_in_wedges(receivers, in_wedges_);
+  grounded_tops_.assign(envelope_.size(), {});
+  envelope_.raise_to_ends(upper_places_.batches(), grounded, receivers, grounded_tops_);
   Open open;
   open.gaps = most_in_gaps(grounded, receivers, overhead.below);
   open.sky = sky_above_borders(grounded, receivers);
@@ -73,12 +78,14 @@ PacketEnvelope::Bounds CertainSky::sky_above_borders(const PacketHorizon& ground
   const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
   if (!has_overhangs())
-    return envelope_.bounds({std::span(upper).first(1), grounded_ends_.batches(), silhouettes_.upper_ends, grounded}, hiding,
-                            receivers, wanted_);
+    return envelope_.bounds({std::span(upper).first(1), grounded_tops_, silhouettes_.upper_ends, grounded}, hiding, receivers,
+                            wanted_);
   upper_ = grounded;
   upper_.raise(far_.overhangs, receivers);
   upper_.raise(near_.overhangs, receivers);
-  return envelope_.bounds({upper, upper_ends_.batches(), silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
+  upper_tops_ = grounded_tops_;
+  envelope_.raise_to_ends(upper_places_.further_batches(), upper_, receivers, upper_tops_);
+  return envelope_.bounds({upper, upper_tops_, silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
 }
 
 CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead,
@@ -98,7 +105,7 @@ PacketEnvelope::Sums CertainSky::most_in_gaps(const PacketHorizon& grounded, con
   choose_gaps(receivers, below);
   if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
   const std::array<const SilhouetteEdges*, 1> edges{&grounded_};
-  return envelope_.most_in_gaps({edges, grounded_ends_.batches(), silhouettes_.upper_ends, grounded},
+  return envelope_.most_in_gaps({edges, grounded_tops_, silhouettes_.upper_ends, grounded},
                                 {lower_borders(grounded, receivers), reached_}, receivers);
 }
 
@@ -108,14 +115,12 @@ void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t belo
   reached_ = in_wedges_.overhang_below_low.reached;
   residual_borders_ = in_wedges_.overhang_below_low.rows;
   if (!has_overhangs() && below == 0) return;
-  const PacketBounds bounds = bounds_of(receivers);
-  const auto mark = [&](const SilhouetteEdges& near, const SilhouetteEdges& far, std::vector<std::uint8_t>& wedges) {
-    const std::array<const SilhouetteEdges*, 2> edges{&near, &far};
-    edges_in_wedges_.begin(edges, bounds);
-    edges_in_wedges_.mark_reached(wedges);
-  };
   may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
-  if (below == 0) mark(near_.overhangs, far_.overhangs, may_hide_);
+  if (below == 0) {
+    const std::array<const SilhouetteEdges*, 2> overhangs{&near_.overhangs, &far_.overhangs};
+    edges_in_wedges_.begin(overhangs, bounds_of(receivers));
+    edges_in_wedges_.mark_reached(envelope_.least_horizons(), may_hide_);
+  }
   for (std::size_t k = 0; k < reached_.size(); ++k)
     if (may_hide_[k] != 0) reached_[k] = 1;
   if (residual_.is_grounded()) return;
@@ -130,8 +135,7 @@ std::span<const PacketHorizon::Row> CertainSky::lower_borders(const PacketHorizo
   lower_.set_slopes(grounded);
   lower_.raise(far_.undersides, receivers);
   lower_.raise(near_.undersides, receivers);
-  const std::array<const SilhouetteEdges*, 2> undersides{&near_.undersides, &far_.undersides};
-  return envelope_.find_lower_borders(undersides, grounded, lower_, receivers, residual_borders_);
+  return envelope_.find_lower_borders(lower_places_.batches(), grounded, lower_, receivers, residual_borders_);
 }
 
 double CertainSky::OpenWedges::width(std::size_t k) const { return high(k) + gap(k) - low(k); }

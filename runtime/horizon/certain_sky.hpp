@@ -107,6 +107,7 @@ class CertainSky {
   [[nodiscard]] double most_in_recess(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead) const;
 
   const CellSilhouettes& silhouettes_;
+  BorderEnds lower_ends_;
   const ResidualHorizon& residual_;
   SkyWeight weight_;
   std::optional<AllowedError> allowed_;
@@ -117,13 +118,14 @@ class CertainSky {
   // What the group sees
   SilhouetteEdges grounded_;
   OverhangEdges near_, far_;
-  EndPlaces grounded_ends_, upper_ends_;
+  EndPlaces upper_places_, lower_places_;  ///< further ones: those of overhangs
   // Working memory, kept from packet to packet
   ResidualHorizon::InWedges in_wedges_;
   PacketHorizon upper_, lower_;
+  PacketEnvelope::Rows grounded_tops_, upper_tops_;
   EdgesInWedges edges_in_wedges_;
   std::vector<std::uint8_t> reached_;  ///< wedges in which sky may be seen under an overhang
-  std::vector<std::uint8_t> may_hide_, under_border_;
+  std::vector<std::uint8_t> may_hide_;
   std::vector<PacketHorizon::Row> chosen_borders_;
   std::span<const PacketHorizon::Row> residual_borders_;  ///< rows of wedges: the far map's
 };

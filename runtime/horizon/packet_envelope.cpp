@@ -56,7 +56,7 @@ PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight
 
 PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, const ReceiverPacket& r,
                                               double wanted) {
-  draw(occluders, r, nullptr);
+  take(occluders, r);
   const SimpleSums simple = sum_simple(hiding, r);
   list_doubtful_wedges(r, nullptr);
   Bounds bounds;
@@ -78,7 +78,7 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
 }
 
 PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, const Gaps& gaps, const ReceiverPacket& r) {
-  draw(occluders, r, gaps.reached.data());
+  take(occluders, r);
   wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, r,
                                        azimuths_.view(), shape_, wedge_weight_, others_.data(), tops_.front().data(),
                                        terms_.gaps.front().data());
@@ -93,23 +93,31 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   return sums;
 }
 
-/// The horizons, and the ends that rise above them, in the wedges that are asked.
-void PacketEnvelope::draw(const Occluders& occluders, const ReceiverPacket& r, const std::uint8_t* asked) {
+void PacketEnvelope::take(const PacketHorizon& horizon, const ReceiverPacket& r) {
   wedge_weight_ = weight_ == SkyWeight::solid_angle ? WedgeWeight::solid_angle
                   : r.all_look_straight_up()        ? WedgeWeight::cosine_up
                                                     : WedgeWeight::cosine;
-  slopes_ = occluders.horizon.slopes();
-  numbers_ = occluders.horizon.numbers();
+  slopes_ = horizon.slopes();
+  numbers_ = horizon.numbers();
   if (wedge_weight_ != WedgeWeight::cosine_up) {
     wedge_sky_kernels().raise_to_planes(slopes_, numbers_, r, azimuths_.view(), own_slopes_.front().data(), own_numbers_.data());
     slopes_ = own_slopes_.front().data();
     numbers_ = own_numbers_.data();
   }
-  wedge_end_kernels().find_lower(slopes_, wedges_.size(), asked, lower_horizons());
-  const PacketBounds bounds = bounds_of(r);
-  edges_.begin(occluders.edges, bounds);
-  for (Row& top : tops_) top.fill(0.0F);
-  wedge_end_kernels().raise_tops(occluders.ends, r, bounds.box, azimuths_.view(), lower_horizons(), tops_.front().data());
+  wedge_end_kernels().find_lower(slopes_, wedges_.size(), lower_horizons());
+}
+
+void PacketEnvelope::take(const Occluders& occluders, const ReceiverPacket& r) {
+  take(occluders.horizon, r);
+  edges_.begin(occluders.edges, bounds_of(r));
+  std::ranges::copy(occluders.tops, tops_.begin());
+}
+
+void PacketEnvelope::raise_to_ends(std::span<const EndBatch> ends, const PacketHorizon& horizon, const ReceiverPacket& r,
+                                   std::span<Row> tops) {
+  FARLOD_EXPECTS(tops.size() == size());
+  take(horizon, r);
+  wedge_end_kernels().raise_tops(ends, r, bounds_of(r).box, azimuths_.view(), lower_horizons(), tops.front().data());
 }
 
 SimpleSums PacketEnvelope::sum_simple(const Hiding& hiding, const ReceiverPacket& r) {
@@ -360,14 +368,12 @@ void PacketEnvelope::keep_terms_of(std::size_t l) {
 // ----------------------------------------------------------------------------------------------------------------
 
 /// A lower border is drawn like an upper one, and its ends are marked.
-std::span<const PacketEnvelope::Row> PacketEnvelope::find_lower_borders(EdgeLists undersides, const PacketHorizon& grounded,
+std::span<const PacketEnvelope::Row> PacketEnvelope::find_lower_borders(std::span<const EndBatch> ends,
+                                                                        const PacketHorizon& grounded,
                                                                         const PacketHorizon& lower_borders,
                                                                         const ReceiverPacket& r, std::span<const Row> others) {
-  wedge_end_kernels().find_lower(grounded.slopes(), wedges_.size(), nullptr, lower_horizons());
   for (Row& border : borders_) border.fill(0.0F);
-  border_ends_.find(undersides);
-  wedge_end_kernels().raise_tops(border_ends_.batches(), r, bounds_of(r).box, azimuths_.view(), lower_horizons(),
-                                 borders_.front().data());
+  raise_to_ends(ends, grounded, r, borders_);
   for (std::size_t k = 0; k < wedges_.size(); ++k)
     for (std::size_t l = 0; l < packet_lanes; ++l) {
       float top = borders_[k][l];

@@ -36,7 +36,7 @@ class PacketEnvelope {
   struct Occluders {
     /// Edges that hide all that is below them; without those that are no higher than `horizon` in any of their wedges.
     EdgeLists edges;
-    std::span<const EndBatch> ends;  ///< of these edges
+    std::span<const Row> tops;  ///< of their ends, as raise_to_ends() makes them
     const BorderEnds& ends_of_numbers;
     const PacketHorizon& horizon;  ///< of the edges alone, which it tracks
   };
@@ -44,6 +44,10 @@ class PacketEnvelope {
   struct Hiding {
     std::span<const Row> least, most;
   };
+  /// Rows of wedges: tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is
+  /// above the lower one of both horizons.
+  void raise_to_ends(std::span<const EndBatch> ends, const PacketHorizon& horizon, const ReceiverPacket& receivers,
+                     std::span<Row> tops);
   struct Bounds {
     Sums low{}, high{};
   };
@@ -57,8 +61,8 @@ class PacketEnvelope {
   };
   /// How much sky lies between the edges and the borders, at most.
   [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps, const ReceiverPacket& receivers);
-  /// Rows of wedges: the lower borders of these edges above the horizons, or `others` where these are higher.
-  [[nodiscard]] std::span<const Row> find_lower_borders(EdgeLists undersides, const PacketHorizon& grounded,
+  /// Rows of wedges: the lower borders with these ends above the horizons, or `others` where these are higher.
+  [[nodiscard]] std::span<const Row> find_lower_borders(std::span<const EndBatch> ends, const PacketHorizon& grounded,
                                                         const PacketHorizon& lower_borders, const ReceiverPacket& receivers,
                                                         std::span<const Row> others);
 
@@ -73,6 +77,8 @@ class PacketEnvelope {
   [[nodiscard]] double term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const;
   [[nodiscard]] const Wedge& wedge(std::size_t k) const { return wedges_[k]; }
   [[nodiscard]] std::size_t size() const { return wedges_.size(); }
+  /// For each wedge, of the last call of any of these: the least of both horizons of all receivers.
+  [[nodiscard]] std::span<const float> least_horizons() const { return std::span(minima_).first(size()); }
 
  private:
   /// A wedge that is not simple for a receiver.
@@ -92,7 +98,9 @@ class PacketEnvelope {
     std::size_t lane;
   };
 
-  void draw(const Occluders& occluders, const ReceiverPacket& receivers, const std::uint8_t* asked);
+  /// Sets the slopes and numbers of a horizon, which the receivers' own planes raise, and what is the least of them.
+  void take(const PacketHorizon& horizon, const ReceiverPacket& receivers);
+  void take(const Occluders& occluders, const ReceiverPacket& receivers);
   SimpleSums sum_simple(const Hiding& hiding, const ReceiverPacket& receivers);
   /// Those with bits, and all that are asked for who looks down.
   void list_doubtful_wedges(const ReceiverPacket& receivers, const std::uint8_t* asked);
@@ -142,7 +150,6 @@ class PacketEnvelope {
   std::array<std::vector<std::uint32_t>, ReceiverPacket::lanes> doubtful_;  ///< these wedges
   std::vector<Doubt> doubts_;
   std::vector<std::uint32_t> above_;
-  EndPlaces border_ends_;
 };
 
 }  // namespace farlod

@@ -16,9 +16,20 @@ constexpr float infinitely_deep_m = -1e30F;
 }  // namespace
 
 void EndPlaces::find(EdgeLists edges, const BorderEnds& ends) {
-  clear();
   if (stamps_.size() < ends.size()) stamps_.resize(ends.size(), 0);
   ++stamp_;
+  batches_.clear();
+  add(edges, ends);
+  first_further_ = batches_.size();
+}
+
+void EndPlaces::find_further(EdgeLists edges, const BorderEnds& ends) {
+  batches_.resize(first_further_);
+  add(edges, ends);
+}
+
+void EndPlaces::add(EdgeLists edges, const BorderEnds& ends) {
+  count_ = 0;
   for (const SilhouetteEdges* list : edges)
     for (std::size_t n = 0; n < list->size(); ++n)
       for (const std::size_t side : {0U, 1U}) {
@@ -27,20 +38,6 @@ void EndPlaces::find(EdgeLists edges, const BorderEnds& ends) {
         stamps_[place] = stamp_;
         add(ends.end(place).p);
       }
-}
-
-void EndPlaces::find(EdgeLists edges) {
-  clear();
-  for (const SilhouetteEdges* list : edges)
-    for (std::size_t n = 0; n < list->size(); ++n) {
-      add(list->at(n).a);
-      add(list->at(n).b);
-    }
-}
-
-void EndPlaces::clear() {
-  batches_.clear();
-  count_ = 0;
 }
 
 void EndPlaces::add(const Point3f& p) {
@@ -94,13 +91,9 @@ const EdgesInWedges::InWedge& EdgesInWedges::reaching(std::size_t wedge, float s
   return w;
 }
 
-void EdgesInWedges::mark_reached(std::span<std::uint8_t> wedges) {
+void EdgesInWedges::mark_reached(std::span<const float> least, std::span<std::uint8_t> wedges) {
   if (!has_spans_) find_spans();
-  for (std::size_t n = 0; n < first_.size(); ++n) {
-    const std::size_t to_end = std::min<std::size_t>(count_[n], wedges.size() - first_[n]);
-    std::ranges::fill(wedges.subspan(first_[n], to_end), std::uint8_t{1});
-    std::ranges::fill(wedges.first(count_[n] - to_end), std::uint8_t{1});
-  }
+  wedge_end_kernels().mark_reached(spans(0), first_.size(), least, wedges.data());
 }
 
 void EdgesInWedges::copy(std::uint32_t number, std::size_t to, InWedge& wedge) const {

@@ -22,16 +22,17 @@ class EndPlaces {
  public:
   /// The ends of the edges, as their numbers find them.
   void find(EdgeLists edges, const BorderEnds& ends);
-  /// The same for edges without numbers; places may come more than once.
-  void find(EdgeLists edges);
-  [[nodiscard]] std::span<const EndBatch> batches() const { return batches_; }
+  /// Those of further edges that are at other places.
+  void find_further(EdgeLists edges, const BorderEnds& ends);
+  [[nodiscard]] std::span<const EndBatch> batches() const { return std::span(batches_).first(first_further_); }
+  [[nodiscard]] std::span<const EndBatch> further_batches() const { return std::span(batches_).subspan(first_further_); }
 
  private:
-  void clear();
+  void add(EdgeLists edges, const BorderEnds& ends);
   void add(const Point3f& p);
 
   std::vector<EndBatch> batches_;
-  std::size_t count_ = 0;
+  std::size_t first_further_ = 0, count_ = 0;
   std::vector<std::uint32_t> stamps_;  ///< of places that were added since stamp_ was new
   std::uint32_t stamp_ = 0;
 };
@@ -51,8 +52,8 @@ class EdgesInWedges {
   };
   /// Those of a wedge that may be steeper than a slope, which is the same at each call.
   [[nodiscard]] const InWedge& reaching(std::size_t wedge, float slope);
-  /// Marks the wedges that some edge may reach into.
-  void mark_reached(std::span<std::uint8_t> wedges);
+  /// Marks the wedges into which some edge may reach above `least`, a slope for each wedge.
+  void mark_reached(std::span<const float> least, std::span<std::uint8_t> wedges);
 
  private:
   void find_spans();

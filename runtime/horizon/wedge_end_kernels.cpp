@@ -156,12 +156,12 @@ FARLOD_LANES void find_least_of_two(const float* half, std::size_t wedges, std::
   for (std::size_t k = wedges - apart; k < wedges; ++k) whole[k] = std::min(half[k], half[k + apart - wedges]);
 }
 
-void find_lower(const float* slopes, std::size_t azimuths, const std::uint8_t* asked, const LowerHorizons& lower) {
+void find_lower(const float* slopes, std::size_t azimuths, const LowerHorizons& lower) {
   for (std::size_t k = 0; k < azimuths; ++k) {
     const std::size_t next = k + 1 < azimuths ? k + 1 : 0;
     const Floats least = min(load(slopes + k * lane_count), load(slopes + next * lane_count));
     store(least, lower.rows + k * lane_count);
-    lower.minima[k] = asked == nullptr || asked[k] != 0 ? min_lane(least) : std::numeric_limits<float>::max();
+    lower.minima[k] = min_lane(least);
   }
   float* minima = lower.minima;
   for (std::size_t apart = 1; 2 * apart <= azimuths; apart *= 2, minima += azimuths)
@@ -209,11 +209,23 @@ std::size_t list_reaching(const EdgeSpans& s, std::size_t edges, std::uint32_t w
   return count;
 }
 
+FARLOD_LANES void mark_steeper(float slope, const float* least, std::size_t first, std::size_t end, std::uint8_t* wedges) {
+  for (std::size_t k = first; k < end; ++k) wedges[k] |= static_cast<std::uint8_t>(slope > least[k]);
+}
+
+void mark_reached(const EdgeSpans& s, std::size_t edges, std::span<const float> least, std::uint8_t* wedges) {
+  for (std::size_t n = 0; n < edges; ++n) {
+    const std::size_t first = s.first[n], end = first + s.count[n], turn = least.size();
+    mark_steeper(s.max_slope[n], least.data(), first, std::min(end, turn), wedges);
+    if (end > turn) mark_steeper(s.max_slope[n], least.data(), 0, end - turn, wedges);
+  }
+}
+
 }  // namespace
 
 namespace FARLOD_TARGET {
 extern const WedgeEndKernels wedge_end_kernels;
-constexpr WedgeEndKernels wedge_end_kernels{find_lower, raise_tops, find_spans, list_reaching};
+constexpr WedgeEndKernels wedge_end_kernels{find_lower, raise_tops, find_spans, list_reaching, mark_reached};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

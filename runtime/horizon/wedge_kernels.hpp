@@ -41,8 +41,7 @@ struct EdgeSpans {
   float* max_slope;
 };
 struct WedgeEndKernels {
-  /// Wedges that are not `asked` get the largest float for the least of all receivers; null asks for all.
-  void (*find_lower)(const float* slopes, std::size_t azimuths, const std::uint8_t* asked, const LowerHorizons& lower);
+  void (*find_lower)(const float* slopes, std::size_t azimuths, const LowerHorizons& lower);
   /// tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is above `lower`.
   void (*raise_tops)(std::span<const EndBatch> ends, const ReceiverPacket& receivers, const CenteredBox& box,
                      const AzimuthView& azimuths, const LowerHorizons& lower, float* tops);
@@ -51,6 +50,8 @@ struct WedgeEndKernels {
   /// Lists the edges that reach into a wedge and may be steeper than a slope: their numbers. Returns how many.
   std::size_t (*list_reaching)(const EdgeSpans& spans, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,
                                std::uint32_t* numbers);
+  /// Marks the wedges into which edges reach that may be steeper there than `least`, a slope for each wedge.
+  void (*mark_reached)(const EdgeSpans& spans, std::size_t edges, std::span<const float> least, std::uint8_t* wedges);
 };
 
 // --- The sky of wedges

@@ -40,7 +40,7 @@ class KnownTown {
         overhangs_(packed_.geometry()),
         silhouettes_(town.silhouettes()),
         engine_(ring_, weight, far_.map(), silhouettes_, overhangs_, gap_tolerance, jumps) {
-    silhouettes_.number_upper_borders();
+    silhouettes_.number_borders();
   }
   /// With this far map. An engine looks once whether anything residual overhangs.
   KnownTown(const TownByHand& town, SkyWeight weight, const FarHorizon& map)
@@ -48,7 +48,7 @@ class KnownTown {
         overhangs_(packed_.geometry()),
         silhouettes_(town.silhouettes()),
         engine_(ring_, weight, map, silhouettes_, overhangs_, 0.0F, JumpPlaces::between_azimuths) {
-    silhouettes_.number_upper_borders();
+    silhouettes_.number_borders();
   }
 
   [[nodiscard]] HorizonEngine& engine() { return engine_; }

@@ -277,7 +277,7 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     const AzimuthSampling ring = AzimuthSampling::even(scene_azimuths, {});
     FarHorizonByHand far({});
     CellSilhouettes silhouettes = GetParam().town.silhouettes();
-    silhouettes.number_upper_borders();
+    silhouettes.number_borders();
     HorizonEngine engine(ring, SkyWeight::cosine, far.map(), silhouettes, overhangs, 0.0F, JumpPlaces::between_azimuths);
     std::vector<Receiver> receivers;
     for (const Point3f& p : places) receivers.push_back({receivers.size(), p, level_normal});

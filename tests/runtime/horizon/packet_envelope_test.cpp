@@ -58,9 +58,11 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
     ends_.find(list_, ends_of_numbers_);
     horizon_ = PacketHorizon(azimuths_, PacketHorizon::Edges::tracked);
     horizon_.raise(edges_, receivers_);
+    tops_ = rows_of(0.0F);
+    envelope_.raise_to_ends(ends_.batches(), horizon_, receivers_, tops_);
   }
 
-  [[nodiscard]] PacketEnvelope::Occluders occluders() const { return {list_, ends_.batches(), ends_of_numbers_, horizon_}; }
+  [[nodiscard]] PacketEnvelope::Occluders occluders() const { return {list_, tops_, ends_of_numbers_, horizon_}; }
   /// The sky of a wedge above all edges, and above a level edge across it whose ends have this slope.
   [[nodiscard]] double exact_sky(std::size_t k, std::size_t l, double slope) {
     const Wedge& w = envelope_.wedge(k);
@@ -94,6 +96,7 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
   EndPlaces ends_;
   PacketHorizon horizon_{azimuths_, PacketHorizon::Edges::tracked};
   PacketEnvelope envelope_{azimuths_, GetParam().weight};
+  PacketEnvelope::Rows tops_;
   WedgeEnvelope exact_;
 };
 
@@ -240,7 +243,7 @@ class WedgeTargets : public PacketEnvelopes {
     const WedgeShape w{0.1F, std::cos(0.1F), std::sin(0.1F), std::tan(0.1F), 1.01F};
     target.wedge_sky->raise_to_planes(horizon_.slopes(), horizon_.numbers(), receivers_, azimuths_.view(), m.raised.data(),
                                       m.numbers.data());
-    target.wedge_end->find_lower(m.raised.data(), count, nullptr, {m.lower.data(), m.minima.data()});
+    target.wedge_end->find_lower(m.raised.data(), count, {m.lower.data(), m.minima.data()});
     target.wedge_end->raise_tops(ends_.batches(), receivers_, bounds_of(receivers_).box, azimuths_.view(),
                                  {m.lower.data(), m.minima.data()}, m.tops.data());
     const PacketEnvelope::Rows hiding = rows_of(0.2F);
