@@ -59,13 +59,13 @@ double CertainSky::Open::farther_end_from(double value, std::size_t lane) const 
 
 /// Sky is what lies above the envelope of all upper borders, and at most what lies between that of the grounded edges and the
 /// lower borders.
-CertainSky::Open CertainSky::open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead) {
+CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead) {
   residual_.find_in_wedges(receivers, in_wedges_);
   grounded_tops_.assign(envelope_.size(), {});
-  envelope_.raise_to_ends(upper_places_.batches(), grounded, receivers, grounded_tops_);
+  envelope_.raise_to_ends(upper_places_.batches(), near.grounded, receivers, grounded_tops_);
   Open open;
-  open.gaps = most_in_gaps(grounded, receivers, overhead.below);
-  open.sky = sky_above_borders(grounded, receivers);
+  open.gaps = most_in_gaps(near, receivers, overhead.below);
+  open.sky = sky_above_borders(near, receivers);
   for (std::size_t l = 0; l < receivers.count; ++l) {
     if (has_bit(overhead.below, l)) open.sky.low[l] = open.sky.high[l] = 0.0;
     if (has_bit(overhead.in_recess, l))
@@ -74,23 +74,22 @@ CertainSky::Open CertainSky::open_sky(const PacketHorizon& grounded, const Recei
   return open;
 }
 
-PacketEnvelope::Bounds CertainSky::sky_above_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers) {
+PacketEnvelope::Bounds CertainSky::sky_above_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
   const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
   if (!has_overhangs())
-    return envelope_.bounds({std::span(upper).first(1), grounded_tops_, silhouettes_.upper_ends, grounded}, hiding, receivers,
+    return envelope_.bounds({std::span(upper).first(1), grounded_tops_, silhouettes_.upper_ends, near.grounded}, hiding, receivers,
                             wanted_);
-  upper_ = grounded;
+  upper_ = near.upper_borders;
   upper_.raise(far_.overhangs, receivers);
-  upper_.raise(near_.overhangs, receivers);
   upper_tops_ = grounded_tops_;
   envelope_.raise_to_ends(upper_places_.further_batches(), upper_, receivers, upper_tops_);
   return envelope_.bounds({upper, upper_tops_, silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
 }
 
-CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead,
+CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead,
                                       const Lanes& estimates) {
-  Open open = open_sky(grounded, receivers, overhead);
+  Open open = open_sky(near, receivers, overhead);
   Bounds bounds;
   for (std::size_t l = 0; l < receivers.count; ++l) {
     if (allowed_) decide(receivers, l, overhead, static_cast<double>(estimates[l]), open, bounds);
@@ -100,13 +99,13 @@ CertainSky::Bounds CertainSky::bounds(const PacketHorizon& grounded, const Recei
   return bounds;
 }
 
-PacketEnvelope::Sums CertainSky::most_in_gaps(const PacketHorizon& grounded, const ReceiverPacket& receivers,
+PacketEnvelope::Sums CertainSky::most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers,
                                               std::uint32_t below) {
   choose_gaps(receivers, below);
   if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
   const std::array<const SilhouetteEdges*, 1> edges{&grounded_};
-  return envelope_.most_in_gaps({edges, grounded_tops_, silhouettes_.upper_ends, grounded},
-                                {lower_borders(grounded, receivers), reached_}, receivers);
+  return envelope_.most_in_gaps({edges, grounded_tops_, silhouettes_.upper_ends, near.grounded},
+                                {lower_borders(near, receivers), reached_}, receivers);
 }
 
 /// Where no upper border reaches into a wedge, nothing hides more than the horizons and the far map's low bound, above which all
@@ -130,12 +129,11 @@ void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t belo
   residual_borders_ = chosen_borders_;
 }
 
-std::span<const PacketHorizon::Row> CertainSky::lower_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers) {
+std::span<const PacketHorizon::Row> CertainSky::lower_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
   if (!has_undersides()) return residual_borders_;
-  lower_.set_slopes(grounded);
+  lower_ = near.lower_borders;
   lower_.raise(far_.undersides, receivers);
-  lower_.raise(near_.undersides, receivers);
-  return envelope_.find_lower_borders(lower_places_.batches(), grounded, lower_, receivers, residual_borders_);
+  return envelope_.find_lower_borders(lower_places_.batches(), near.grounded, lower_, receivers, residual_borders_);
 }
 
 double CertainSky::OpenWedges::width(std::size_t k) const { return high(k) + gap(k) - low(k); }

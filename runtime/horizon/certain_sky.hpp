@@ -56,8 +56,8 @@ class CertainSky {
     std::uint32_t decided = 0;
     std::uint64_t wedges = 0;
   };
-  /// For a packet of the group, its horizon and its estimates. For receivers in recesses, only the whole city knows bounds.
-  [[nodiscard]] Bounds bounds(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead,
+  /// For a packet of the group, its horizons and its estimates. For receivers in recesses, only the whole city knows bounds.
+  [[nodiscard]] Bounds bounds(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead,
                               const Lanes& estimates);
 
  private:
@@ -72,14 +72,14 @@ class CertainSky {
   /// Whether something is in the group's sight.
   [[nodiscard]] bool has_overhangs() const { return !near_.overhangs.empty() || !far_.overhangs.empty(); }
   [[nodiscard]] bool has_undersides() const { return !near_.undersides.empty() || !far_.undersides.empty(); }
-  [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const PacketHorizon& grounded, const ReceiverPacket& receivers,
+  [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers,
                                                   std::uint32_t below);
   /// Finds the wedges in which sky may be seen under an overhang, and the lower borders of the far map that count there.
   void choose_gaps(const ReceiverPacket& receivers, std::uint32_t below);
   /// Rows of wedges, at least those of the far map.
-  [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
-  [[nodiscard]] Open open_sky(const PacketHorizon& grounded, const ReceiverPacket& receivers, const Overhead& overhead);
-  [[nodiscard]] PacketEnvelope::Bounds sky_above_borders(const PacketHorizon& grounded, const ReceiverPacket& receivers);
+  [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const NearHorizons& near, const ReceiverPacket& receivers);
+  [[nodiscard]] Open open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead);
+  [[nodiscard]] PacketEnvelope::Bounds sky_above_borders(const NearHorizons& near, const ReceiverPacket& receivers);
   /// The terms of a receiver's wedges (PacketEnvelope::Terms). Above an overhang overhead there is no sky.
   struct OpenWedges {
     const PacketEnvelope& envelope;

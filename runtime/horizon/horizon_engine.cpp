@@ -39,7 +39,8 @@ HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, 
       recesses_(azimuths, silhouettes),
       jumps_(azimuths),
       sections_(azimuths),
-      horizons_(azimuths, PacketHorizon::Edges::tracked) {}
+      horizons_(azimuths, PacketHorizon::Edges::tracked),
+      near_(azimuths) {}
 
 void HorizonEngine::tell_profiles(ProfileRows rows, OnProfile on_profile) {
   FARLOD_EXPECTS(jump_places_ == JumpPlaces::at_edge_ends);
@@ -102,7 +103,8 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
   evaluate(receivers, overhead, answer);
 }
 
-void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& overhead, PacketAnswer& answer) {
+void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& overhead, PacketAnswer& answer,
+                             const NearHorizons* near) {
   // Without overhangs in sight, the sky above it is the answer
   if (overhead.below == 0 && in_sight_.empty()) {
     const auto [sky, correction] = sky_above(horizons_.grounded, receivers);
@@ -115,7 +117,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& ov
   // Else it is the sky above the upper borders, plus what is seen in the gaps below the lower borders
   horizons_.upper_borders = horizons_.grounded;
   horizons_.lower_borders.set_slopes(horizons_.grounded);
-  horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::lowest);
+  horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::lowest, near);
   const auto [sky, correction] = sky_above(horizons_.upper_borders, receivers);
   corrections_ = correction;
   const Lanes in_gaps = sky_in_gaps(receivers, overhead, sky);
@@ -131,13 +133,14 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   const Overhead overhead = recesses_.overhead_of(receivers, overhangs_.receivers_below(receivers));
   recesses_.draw_again(
       receivers, overhead, [](const ReceiverPacket&, PacketHorizon&) {}, horizons_.grounded);
-  const PacketHorizon without_residual = horizons_.grounded;
+  near_.grounded = horizons_.grounded;
+  near_.draw(in_sight(overhead).near, receivers);
   const SkyAtAzimuths at_azimuths = profile_ ? bounds_at_azimuths(receivers, overhead) : SkyAtAzimuths{};
   residual_.raise_to_estimate(receivers, horizons_.grounded);
-  evaluate(receivers, overhead, answer);
+  evaluate(receivers, overhead, answer, &near_);
   Lanes estimates{};
   for (std::size_t l = 0; l < receivers.count; ++l) estimates[l] = answer.svf[l].estimate;
-  const CertainSky::Bounds bounds = certain().bounds(without_residual, receivers, overhead, estimates);
+  const CertainSky::Bounds bounds = certain().bounds(near_, receivers, overhead, estimates);
   for (std::size_t l = 0; l < receivers.count; ++l) {
     SvfInterval& svf = answer.svf[l];
     const float drawn = svf.estimate;
@@ -157,20 +160,19 @@ CertainSky& HorizonEngine::certain() {
 
 HorizonEngine::SkyAtAzimuths HorizonEngine::bounds_at_azimuths(const ReceiverPacket& receivers, const Overhead& overhead) {
   SkyAtAzimuths sky;
-  const PacketHorizon without_residual = horizons_.grounded;
   // The most: sky above the residual's low bound, and all of the gaps, up to the highest borders
   horizons_.upper_borders.set_slopes(horizons_.grounded);
   horizons_.lower_borders.set_slopes(horizons_.grounded);
   residual_.raise_to_low(receivers, horizons_.upper_borders);
   residual_.raise_to_overhang(receivers, horizons_.lower_borders);
-  horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::highest);
+  horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::highest, &near_);
   const Lanes in_gaps = sum(horizons_.find_sky_in_gaps(weight_, receivers, gap_rows_));
   sky.high = horizons_.upper_borders.sky_above(weight_, receivers);
   for (std::size_t l = 0; l < sky.high.size(); ++l) sky.high[l] += in_gaps[l];
   // The least: sky above its high bound, and nothing of the gaps
   residual_.raise_to_high(receivers, horizons_.upper_borders);
   sky.low = horizons_.upper_borders.sky_above(weight_, receivers);
-  horizons_.grounded = without_residual;
+  horizons_.grounded = near_.grounded;
   return sky;
 }
 

@@ -82,7 +82,9 @@ class HorizonEngine {
   /// Answers one packet, whose grounded horizon is drawn.
   void evaluate(const ReceiverPacket& receivers, PacketAnswer& answer);
   void evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer);
-  void evaluate(const ReceiverPacket& receivers, const Overhead& overhead, PacketAnswer& answer);
+  /// The near overhangs may be drawn already.
+  void evaluate(const ReceiverPacket& receivers, const Overhead& overhead, PacketAnswer& answer,
+                const NearHorizons* near = nullptr);
   /// Overhangs that may rise above horizons: all of them above those of receivers in recesses, which are lower than others.
   [[nodiscard]] const CellOverhangs& in_sight(const Overhead& overhead) const {
     return overhead.in_recess != 0 ? silhouettes_ : in_sight_;
@@ -98,7 +100,7 @@ class HorizonEngine {
   void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   void profile_gaps(std::span<const OpenGap> open, std::uint32_t asked, const ReceiverPacket& receivers);
 
-  /// The sky at the azimuths of a profile, at least and at most; of horizons without the residual.
+  /// The sky at the azimuths of a profile, at least and at most, of `near_`.
   struct SkyAtAzimuths {
     Lanes low{}, high{};
   };
@@ -125,6 +127,7 @@ class HorizonEngine {
   std::vector<PacketHorizon> grounded_;  ///< of each packet
   CellOverhangs in_sight_;               ///< overhangs that may rise above some of them
   OverhangHorizons horizons_;
+  NearHorizons near_;
   std::vector<PacketHorizon::Row> gap_rows_;
   Lanes corrections_{};                ///< of the estimate, by its jumps
   std::optional<CertainSky> certain_;  ///< once somebody asks for bounds

@@ -162,8 +162,15 @@ std::uint32_t OverhangGeometry::receivers_below(const ReceiverPacket& r) const {
   return bits;
 }
 
+void NearHorizons::draw(const OverhangEdges& near, const ReceiverPacket& receivers) {
+  upper_borders = grounded;
+  upper_borders.raise(near.overhangs, receivers);
+  lower_borders.set_slopes(grounded);
+  lower_borders.raise(near.undersides, receivers);
+}
+
 void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, const Overhead& overhead,
-                                      FarGapEnd far_end) {
+                                      FarGapEnd far_end, const NearHorizons* near) {
   // First the far city by itself. Where no lower border of it is above the grounded horizon, it is joined with what is near
   upper_borders.raise(overhangs.far.overhangs, receivers);
   if (far_end == FarGapEnd::lowest && !overhangs.far.undersides.empty())
@@ -175,9 +182,14 @@ void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const Rece
   far_upper_borders.set_slopes(upper_borders);
   // Then the near overhangs; a receiver below one sees no sky above it
   lower_borders.raise_to(grounded);
-  upper_borders.raise(overhangs.near.overhangs, receivers);
+  if (near != nullptr) {
+    upper_borders.raise_to(near->upper_borders);
+    lower_borders.raise_to(near->lower_borders);
+  } else {
+    upper_borders.raise(overhangs.near.overhangs, receivers);
+    lower_borders.raise(overhangs.near.undersides, receivers);
+  }
   upper_borders.close(overhead.below);
-  lower_borders.raise(overhangs.near.undersides, receivers);
   lower_borders.close(overhead.in_recess);
 }
 

@@ -79,6 +79,19 @@ enum class FarGapEnd : std::uint8_t {
   lowest    ///< the estimate: the borders above the lowest one belong to the same building
 };
 
+/// Horizons of edges alone, without the residual one: the grounded ones, and these with the borders of near overhangs.
+struct NearHorizons {
+  explicit NearHorizons(const AzimuthSampling& azimuths)
+      : grounded(azimuths, PacketHorizon::Edges::tracked),
+        upper_borders(azimuths, PacketHorizon::Edges::tracked),
+        lower_borders(azimuths) {}
+
+  PacketHorizon grounded, upper_borders, lower_borders;
+
+  /// Draws the borders above `grounded`.
+  void draw(const OverhangEdges& near, const ReceiverPacket& receivers);
+};
+
 /// The slopes between which a packet's receivers may see sky, where something overhangs. Each azimuth is divided, from below:
 ///
 ///     0 … grounded                      hidden
@@ -99,9 +112,9 @@ struct OverhangHorizons {
   PacketHorizon far_lower_borders, far_upper_borders;  ///< of the far city alone
 
   /// Draws overhangs above `grounded`. `upper_borders` may hold the residual horizon's already, and with FarGapEnd::highest
-  /// `lower_borders` too; they must not be lower than `grounded`.
+  /// `lower_borders` too; they must not be lower than `grounded`. The near ones may be drawn already.
   void draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, const Overhead& overhead,
-                      FarGapEnd far_end);
+                      FarGapEnd far_end, const NearHorizons* near = nullptr);
   /// The sky in the gaps, a row for each azimuth; no rows where there is no gap. Afterwards `lower_borders` and the far horizons
   /// are the ends of these gaps.
   [[nodiscard]] std::span<const PacketHorizon::Row> find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,

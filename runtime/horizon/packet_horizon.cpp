@@ -58,7 +58,10 @@ void PacketHorizon::raise(const ResidualRows& rows, std::span<const std::uint32_
 }
 
 void PacketHorizon::raise_to(const PacketHorizon& other) {
-  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
+  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size() && (numbers_.empty() || !other.numbers_.empty()));
+  for (std::size_t k = 0; k < numbers_.size(); ++k)
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      numbers_[k][l] = other.slopes_[k][l] > slopes_[k][l] ? other.numbers_[k][l] : numbers_[k][l];
   sky_kernels().raise(other.data(), slopes_.size(), data());
 }
 

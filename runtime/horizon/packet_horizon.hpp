@@ -48,7 +48,8 @@ class PacketHorizon {
   void raise(std::span<const float> row, const Lanes& caps, std::span<const std::uint32_t> bin_of_azimuth);
   /// The same to here + share (above − here), with a share for each receiver, clamped to [lower, upper].
   void raise(const ResidualRows& rows, std::span<const std::uint32_t> bin_of_azimuth);
-  /// Raises them to other horizons where these are higher, or lowers them where these are lower.
+  /// Raises them to other horizons where these are higher, which track their edges if these do; or lowers them where these are
+  /// lower.
   void raise_to(const PacketHorizon& other);
   void lower_to(const PacketHorizon& other);
   /// Raises them to `upper` where `lower` is not above them: an occluder that begins below a horizon, and reaches above it
