@@ -14,6 +14,16 @@ namespace farlod {
 namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
+
+/// A horizon with borders of the far city. The second one is room for it.
+const PacketHorizon& with_far(const PacketHorizon& near, const SilhouetteEdges& far, const ReceiverPacket& receivers,
+                              PacketHorizon& both) {
+  if (far.empty()) return near;
+  both = near;
+  both.raise(far, receivers);
+  return both;
+}
+
 }  // namespace
 
 CertainSky::CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
@@ -61,8 +71,9 @@ double CertainSky::Open::farther_end_from(double value, std::size_t lane) const 
 /// lower borders.
 CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead) {
   residual_.find_in_wedges(receivers, in_wedges_);
-  grounded_tops_.assign(envelope_.size(), {});
-  envelope_.raise_to_ends(upper_places_.batches(), near.grounded, receivers, grounded_tops_);
+  envelope_.see(near.grounded, receivers);
+  tops_.assign(envelope_.size(), {});
+  envelope_.raise_to_ends(upper_places_.batches(), tops_);
   Open open;
   open.gaps = most_in_gaps(near, receivers, overhead.below);
   open.sky = sky_above_borders(near, receivers);
@@ -77,14 +88,10 @@ CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPa
 PacketEnvelope::Bounds CertainSky::sky_above_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
   const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
-  if (!has_overhangs())
-    return envelope_.bounds({std::span(upper).first(1), grounded_tops_, silhouettes_.upper_ends, near.grounded}, hiding, receivers,
-                            wanted_);
-  upper_ = near.upper_borders;
-  upper_.raise(far_.overhangs, receivers);
-  upper_tops_ = grounded_tops_;
-  envelope_.raise_to_ends(upper_places_.further_batches(), upper_, receivers, upper_tops_);
-  return envelope_.bounds({upper, upper_tops_, silhouettes_.upper_ends, upper_}, hiding, receivers, wanted_);
+  if (!has_overhangs()) return envelope_.bounds({std::span(upper).first(1), tops_, silhouettes_.upper_ends}, hiding, wanted_);
+  envelope_.see(with_far(near.upper_borders, far_.overhangs, receivers, upper_), receivers);
+  envelope_.raise_to_ends(upper_places_.further_batches(), tops_);
+  return envelope_.bounds({upper, tops_, silhouettes_.upper_ends}, hiding, wanted_);
 }
 
 CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead,
@@ -99,20 +106,19 @@ CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPa
   return bounds;
 }
 
-PacketEnvelope::Sums CertainSky::most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers,
-                                              std::uint32_t below) {
+PacketEnvelope::Sums CertainSky::most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below) {
   choose_gaps(receivers, below);
   if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
   const std::array<const SilhouetteEdges*, 1> edges{&grounded_};
-  return envelope_.most_in_gaps({edges, grounded_tops_, silhouettes_.upper_ends, near.grounded},
-                                {lower_borders(near, receivers), reached_}, receivers);
+  return envelope_.most_in_gaps({edges, tops_, silhouettes_.upper_ends}, {lower_borders(near, receivers), reached_});
 }
 
-/// Where no upper border reaches into a wedge, nothing hides more than the horizons and the far map's low bound, above which all
-/// counts as sky already. What overhangs hides the more, the lower its border: that may be one that no horizon is lower than.
+/// Where no upper border rises above the lower one of both horizons of a wedge, nothing hides more than the horizons and the far
+/// map's low bound, above which all counts as sky already. Elsewhere sky may be seen below a lower border, even below one that no
+/// horizon is lower than.
 void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t below) {
-  reached_ = in_wedges_.overhang_below_low.reached;
-  residual_borders_ = in_wedges_.overhang_below_low.rows;
+  reached_ = in_wedges_.reached_below_low;
+  residual_borders_ = in_wedges_.overhang_below_low;
   if (!has_overhangs() && below == 0) return;
   may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
   if (below == 0) {
@@ -123,17 +129,16 @@ void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t belo
   for (std::size_t k = 0; k < reached_.size(); ++k)
     if (may_hide_[k] != 0) reached_[k] = 1;
   if (residual_.is_grounded()) return;
-  chosen_borders_ = in_wedges_.overhang_below_low.rows;
+  chosen_borders_ = in_wedges_.overhang_below_low;
   for (std::size_t k = 0; k < reached_.size(); ++k)
-    if (may_hide_[k] != 0) chosen_borders_[k] = in_wedges_.overhang.rows[k];
+    if (may_hide_[k] != 0) chosen_borders_[k] = in_wedges_.overhang[k];
   residual_borders_ = chosen_borders_;
 }
 
 std::span<const PacketHorizon::Row> CertainSky::lower_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
   if (!has_undersides()) return residual_borders_;
-  lower_ = near.lower_borders;
-  lower_.raise(far_.undersides, receivers);
-  return envelope_.find_lower_borders(lower_places_.batches(), near.grounded, lower_, receivers, residual_borders_);
+  return envelope_.find_lower_borders(lower_places_.batches(), with_far(near.lower_borders, far_.undersides, receivers, lower_),
+                                      residual_borders_);
 }
 
 double CertainSky::OpenWedges::width(std::size_t k) const { return high(k) + gap(k) - low(k); }

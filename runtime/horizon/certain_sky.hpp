@@ -72,8 +72,7 @@ class CertainSky {
   /// Whether something is in the group's sight.
   [[nodiscard]] bool has_overhangs() const { return !near_.overhangs.empty() || !far_.overhangs.empty(); }
   [[nodiscard]] bool has_undersides() const { return !near_.undersides.empty() || !far_.undersides.empty(); }
-  [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers,
-                                                  std::uint32_t below);
+  [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below);
   /// Finds the wedges in which sky may be seen under an overhang, and the lower borders of the far map that count there.
   void choose_gaps(const ReceiverPacket& receivers, std::uint32_t below);
   /// Rows of wedges, at least those of the far map.
@@ -118,11 +117,11 @@ class CertainSky {
   // What the group sees
   SilhouetteEdges grounded_;
   OverhangEdges near_, far_;
-  EndPlaces upper_places_, lower_places_;  ///< further ones: those of overhangs
+  EndPlaces upper_places_, lower_places_;  ///< the further upper ones are those of overhangs
   // Working memory, kept from packet to packet
   ResidualHorizon::InWedges in_wedges_;
   PacketHorizon upper_, lower_;
-  PacketEnvelope::Rows grounded_tops_, upper_tops_;
+  PacketEnvelope::Rows tops_;  ///< of the upper ends that count so far
   EdgesInWedges edges_in_wedges_;
   std::vector<std::uint8_t> reached_;  ///< wedges in which sky may be seen under an overhang
   std::vector<std::uint8_t> may_hide_;

@@ -12,16 +12,16 @@
 namespace farlod {
 
 // What CMakeLists.txt compiles for each target
-#define FARLOD_DECLARE_TARGET(target)             \
-  namespace target {                              \
-  extern const EdgeKernels edge_kernels;          \
-  extern const SkyKernels sky_kernels;            \
-  extern const GapKernels gap_kernels;            \
-  extern const WedgeEndKernels wedge_end_kernels; \
-  extern const WedgeSkyKernels wedge_sky_kernels; \
+#define FARLOD_DECLARE_TARGET(target)               \
+  namespace target {                                \
+  extern const EdgeKernels edge_kernels;            \
+  extern const SkyKernels sky_kernels;              \
+  extern const GapKernels gap_kernels;              \
+  extern const WedgeEndKernels wedge_end_kernels;   \
+  extern const WedgeSkyKernels wedge_sky_kernels;   \
   extern const WedgePairKernels wedge_pair_kernels; \
-  extern const PixelKernels pixel_kernels;        \
-  extern const LightKernels light_kernels;        \
+  extern const PixelKernels pixel_kernels;          \
+  extern const LightKernels light_kernels;          \
   }
 FARLOD_DECLARE_TARGET(baseline)
 #ifdef FARLOD_X86_TARGETS
@@ -52,8 +52,8 @@ std::vector<KernelTarget> find_runnable_kernels() {
                        &avx2::wedge_sky_kernels, &avx2::wedge_pair_kernels, &avx2::pixel_kernels, &avx2::light_kernels});
 #endif
   targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::gap_kernels,
-                     &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels, &baseline::wedge_pair_kernels, &baseline::pixel_kernels,
-                     &baseline::light_kernels});
+                     &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels, &baseline::wedge_pair_kernels,
+                     &baseline::pixel_kernels, &baseline::light_kernels});
   return targets;
 }
 

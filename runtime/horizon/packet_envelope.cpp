@@ -43,7 +43,6 @@ PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight
       own_slopes_(azimuths.size()),
       own_numbers_(azimuths.size() * packet_lanes),
       lower_(azimuths.size()),
-      tops_(azimuths.size()),
       borders_(azimuths.size()),
       minima_(azimuths.size() * static_cast<std::size_t>(std::bit_width(azimuths.size()))),
       others_(azimuths.size()) {
@@ -54,46 +53,9 @@ PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight
     wedges_.push_back(wedge_between(direction(k), direction(k + 1 < azimuths.size() ? k + 1 : 0)));
 }
 
-PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, const ReceiverPacket& r,
-                                              double wanted) {
-  take(occluders, r);
-  const SimpleSums simple = sum_simple(hiding, r);
-  list_doubtful_wedges(r, nullptr);
-  Bounds bounds;
-  for (std::size_t l = 0; l < r.count; ++l) {
-    const Eye eye{occluders, hiding, r, l};
-    const bool looks_down = r.normal_z[l] < 0.0F;
-    double low = looks_down ? 0.0 : simple.low[l], high = looks_down ? 0.0 : simple.high[l];
-    find_doubts(eye);
-    resolve_doubts(eye, high - low, wanted * turn_rad);
-    for (const Doubt& d : doubts_) {
-      low += static_cast<double>(d.low);
-      high += static_cast<double>(d.high);
-    }
-    if (has_terms_) keep_terms_of(l);
-    bounds.low[l] = low / turn_rad;
-    bounds.high[l] = high / turn_rad;
-  }
-  return bounds;
-}
-
-PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, const Gaps& gaps, const ReceiverPacket& r) {
-  take(occluders, r);
-  wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, r,
-                                       azimuths_.view(), shape_, wedge_weight_, others_.data(), tops_.front().data(),
-                                       terms_.gaps.front().data());
-  list_doubtful_wedges(r, gaps.reached.data());
-  const Hiding nothing{none_, none_};
-  Sums sums{};
-  for (std::size_t l = 0; l < r.count; ++l) bound_gaps({occluders, nothing, r, l}, gaps.borders);
-  for (std::size_t k = 0; k < wedges_.size(); ++k) {
-    if (gaps.reached[k] == 0) continue;
-    for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
-  }
-  return sums;
-}
-
-void PacketEnvelope::take(const PacketHorizon& horizon, const ReceiverPacket& r) {
+void PacketEnvelope::see(const PacketHorizon& horizon, const ReceiverPacket& r) {
+  horizon_ = &horizon;
+  receivers_ = &r;
   wedge_weight_ = weight_ == SkyWeight::solid_angle ? WedgeWeight::solid_angle
                   : r.all_look_straight_up()        ? WedgeWeight::cosine_up
                                                     : WedgeWeight::cosine;
@@ -107,31 +69,65 @@ void PacketEnvelope::take(const PacketHorizon& horizon, const ReceiverPacket& r)
   wedge_end_kernels().find_lower(slopes_, wedges_.size(), lower_horizons());
 }
 
-void PacketEnvelope::take(const Occluders& occluders, const ReceiverPacket& r) {
-  take(occluders.horizon, r);
-  edges_.begin(occluders.edges, bounds_of(r));
-  std::ranges::copy(occluders.tops, tops_.begin());
-}
-
-void PacketEnvelope::raise_to_ends(std::span<const EndBatch> ends, const PacketHorizon& horizon, const ReceiverPacket& r,
-                                   std::span<Row> tops) {
+void PacketEnvelope::raise_to_ends(std::span<const EndBatch> ends, std::span<Row> tops) {
   FARLOD_EXPECTS(tops.size() == size());
-  take(horizon, r);
-  wedge_end_kernels().raise_tops(ends, r, bounds_of(r).box, azimuths_.view(), lower_horizons(), tops.front().data());
+  wedge_end_kernels().raise_tops(ends, *receivers_, bounds_of(*receivers_).box, azimuths_.view(), lower_horizons(),
+                                 tops.front().data());
 }
 
-SimpleSums PacketEnvelope::sum_simple(const Hiding& hiding, const ReceiverPacket& r) {
+PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, double wanted) {
+  const ReceiverPacket& r = *receivers_;
+  edges_.begin(occluders.edges, bounds_of(r));
+  const SimpleSums simple = sum_simple(occluders, hiding);
+  list_doubtful_wedges(nullptr);
+  Bounds bounds;
+  for (std::size_t l = 0; l < r.count; ++l) {
+    const Eye eye{occluders, hiding, r, l};
+    const bool looks_down = r.normal_z[l] < 0.0F;
+    double low = looks_down ? 0.0 : simple.low[l], high = looks_down ? 0.0 : simple.high[l];
+    find_doubts(eye);
+    resolve_doubts(eye, high - low, wanted * turn_rad);
+    for (std::size_t n = 0; n < doubtful_[l].size(); ++n) {
+      const Doubt d = doubt(l, n);
+      low += static_cast<double>(d.pairs.low[d.n]);
+      high += static_cast<double>(d.pairs.high[d.n]);
+    }
+    if (has_terms_) keep_terms_of(l);
+    bounds.low[l] = low / turn_rad;
+    bounds.high[l] = high / turn_rad;
+  }
+  return bounds;
+}
+
+PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, const Gaps& gaps) {
+  const ReceiverPacket& r = *receivers_;
+  wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, r,
+                                       azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(),
+                                       terms_.gaps.front().data());
+  list_doubtful_wedges(gaps.reached.data());
+  const Hiding nothing{none_, none_};
+  Sums sums{};
+  for (std::size_t l = 0; l < r.count; ++l) bound_gaps({occluders, nothing, r, l}, gaps.borders);
+  for (std::size_t k = 0; k < wedges_.size(); ++k) {
+    if (gaps.reached[k] == 0) continue;
+    for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
+  }
+  return sums;
+}
+
+SimpleSums PacketEnvelope::sum_simple(const Occluders& occluders, const Hiding& hiding) {
   SimpleSums sums;
   if (has_terms_) {
     sums.low_rows = terms_.low.front().data();
     sums.high_rows = terms_.high.front().data();
   }
-  wedge_sky_kernels().sum_simple({slopes_, numbers_}, {hiding.least.front().data(), hiding.most.front().data()}, r,
-                                 azimuths_.view(), shape_, wedge_weight_, others_.data(), tops_.front().data(), sums);
+  wedge_sky_kernels().sum_simple({slopes_, numbers_}, {hiding.least.front().data(), hiding.most.front().data()}, *receivers_,
+                                 azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(), sums);
   return sums;
 }
 
-void PacketEnvelope::list_doubtful_wedges(const ReceiverPacket& r, const std::uint8_t* asked) {
+void PacketEnvelope::list_doubtful_wedges(const std::uint8_t* asked) {
+  const ReceiverPacket& r = *receivers_;
   for (std::vector<std::uint32_t>& wedges : doubtful_) wedges.clear();
   std::uint32_t look_down = 0;
   for (std::size_t l = 0; l < r.count; ++l) look_down |= r.normal_z[l] < 0.0F ? 1U << l : 0U;
@@ -161,12 +157,24 @@ void PacketEnvelope::visit_pairs(const Eye& eye, const Answer& answer) {
 }
 
 void PacketEnvelope::find_doubts(const Eye& eye) {
-  doubts_.clear();
+  pairs_.clear();
   visit_pairs(eye, [&](std::span<const std::uint32_t> wedges, const WedgePairs& pairs) {
-    PairsAnswer answer;
+    PairsAnswer& answer = pairs_.emplace_back();
     wedge_pair_kernels().bound_pairs(pairs, shape_, wedge_weight_, answer);
-    for (std::size_t n = 0; n < wedges.size(); ++n) put_doubt(eye, wedges[n], answer, n);
+    answer.unknown |= beyond_pairs(eye, wedges);
   });
+}
+
+/// Where the back of a wall begins, and for who looks down.
+std::uint32_t PacketEnvelope::beyond_pairs(const Eye& eye, std::span<const std::uint32_t> wedges) const {
+  if (wedge_weight_ == WedgeWeight::cosine_up) return 0;
+  if (eye.receivers.normal_z[eye.lane] < 0.0F) return ~0U;
+  std::uint32_t bits = 0;
+  for (std::size_t n = 0; n < wedges.size(); ++n) {
+    const std::size_t k = wedges[n], l = eye.lane;
+    if (number_at(k, l) == number_behind || number_at(next(k), l) == number_behind) bits |= 1U << n;
+  }
+  return bits;
 }
 
 void PacketEnvelope::bound_gaps(const Eye& eye, std::span<const Row> borders) {
@@ -189,7 +197,8 @@ void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, Wedg
   pairs.sine[n] = static_cast<float>(wedges_[k].from.y);
   pairs.from[n] = slope_at(k, l);
   pairs.to[n] = slope_at(after, l);
-  pairs.top[n] = std::max(tops_[k][l] * shape_.widened, eye.hiding.most[k][l]);
+  const float top = std::max({eye.occluders.tops[k][l], pairs.from[n], pairs.to[n]});
+  pairs.top[n] = std::max(top * shape_.widened, eye.hiding.most[k][l]);
   pairs.least[n] = eye.hiding.least[k][l];
 }
 
@@ -225,54 +234,39 @@ void PacketEnvelope::put_plane(const Eye& eye, std::int32_t number, std::size_t 
   edges.qz[n] = b.z;
 }
 
-void PacketEnvelope::put_doubt(const Eye& eye, std::size_t k, const PairsAnswer& answer, std::size_t n) {
-  const std::size_t l = eye.lane;
-  Doubt& d = doubts_.emplace_back();
-  d.wedge = static_cast<std::uint32_t>(k);
-  d.high = answer.high[n];
-  d.low = std::min(answer.low[n], d.high);
-  d.turn = answer.turn[n];
-  d.first = answer.first[n];
-  // Between edges that are apart anything may rise
-  d.middle = answer.lid[n] > 0.0F ? std::min(answer.before[n], answer.after[n]) : -std::numeric_limits<float>::infinity();
-  d.last = answer.last[n];
-  d.lid = answer.lid[n];
-  // Where the back of a wall begins, and for who looks down, only all edges tell
-  const bool is_behind = number_at(k, l) == number_behind || number_at(next(k), l) == number_behind;
-  d.is_unknown = has_bit(answer.unknown, n) || is_behind || eye.receivers.normal_z[l] < 0.0F;
-}
-
 // --- Then from all edges, in doubles: the widest first
 // ----------------------------------------------------------------------------
 
 void PacketEnvelope::resolve_doubts(const Eye& eye, double width, double wanted) {
-  for (Doubt& d : doubts_) {
-    if (d.is_unknown) resolve(eye, d);
-    width += static_cast<double>(d.width());
+  const std::size_t l = eye.lane, count = doubtful_[l].size();
+  for (std::size_t n = 0; n < count; ++n) {
+    if (doubt(l, n).is_unknown()) resolve(eye, doubt(l, n));
+    width += static_cast<double>(doubt(l, n).width());
   }
   if (width <= wanted) return;
   // Each is resolved once: the heap shrinks
-  const auto narrower = [](const Doubt& a, const Doubt& b) {
-    return (a.is_unknown ? 0.0F : a.width()) < (b.is_unknown ? 0.0F : b.width());
-  };
-  std::make_heap(doubts_.begin(), doubts_.end(), narrower);
-  for (auto end = doubts_.end(); width > wanted && end != doubts_.begin(); --end) {
-    std::pop_heap(doubts_.begin(), end, narrower);
-    Doubt& widest = *(end - 1);
-    if (widest.is_unknown || widest.width() <= 0.0F) return;
+  const auto width_of = [&](std::size_t n) { return doubt(l, n).is_unknown() ? 0.0F : doubt(l, n).width(); };
+  const auto narrower = [&](std::size_t a, std::size_t b) { return width_of(a) < width_of(b); };
+  widest_.resize(count);
+  std::iota(widest_.begin(), widest_.end(), std::size_t{0});
+  std::make_heap(widest_.begin(), widest_.end(), narrower);
+  for (auto end = widest_.end(); width > wanted && end != widest_.begin(); --end) {
+    std::pop_heap(widest_.begin(), end, narrower);
+    const Doubt widest = doubt(l, *(end - 1));
+    if (widest.is_unknown() || widest.width() <= 0.0F) return;
     width -= static_cast<double>(widest.width());
     resolve(eye, widest);
     width += static_cast<double>(widest.width());
   }
 }
 
-void PacketEnvelope::resolve(const Eye& eye, Doubt& d) {
+void PacketEnvelope::resolve(const Eye& eye, const Doubt& d) {
   const std::size_t k = d.wedge, l = eye.lane;
   const EdgesInWedges::InWedge& edges = edges_.reaching(k, minima_[k]);
   find_edges_above(eye, d, edges);
-  const float hidden = std::max(eye.hiding.most[k][l], minima_[k]);
-  if (!d.is_unknown && above_.empty() && eye.hiding.least[k][l] <= d.lid && hidden <= d.lid)
-    d.low = d.high;  // nothing else rises above both
+  const float hidden = std::max(eye.hiding.most[k][l], minima_[k]), lid = d.pairs.lid[d.n];
+  if (!d.is_unknown() && above_.empty() && eye.hiding.least[k][l] <= lid && hidden <= lid)
+    d.pairs.low[d.n] = d.pairs.high[d.n];  // nothing else rises above both
   else
     find_sky(eye, edges, d);
 }
@@ -280,27 +274,30 @@ void PacketEnvelope::resolve(const Eye& eye, Doubt& d) {
 void PacketEnvelope::find_edges_above(const Eye& eye, const Doubt& d, const EdgesInWedges::InWedge& edges) {
   const ReceiverPacket& r = eye.receivers;
   const Wedge& w = wedges_[d.wedge];
+  const PairsAnswer& p = d.pairs;
+  // Between edges that are apart anything may rise
+  const float middle = p.lid[d.n] > 0.0F ? std::min(p.before[d.n], p.after[d.n]) : -std::numeric_limits<float>::infinity();
   const WedgeEye seen{r.x[eye.lane],
                       r.y[eye.lane],
                       r.z[eye.lane],
                       static_cast<float>(w.from.x),
                       static_cast<float>(w.from.y),
                       static_cast<float>(w.tangent),
-                      d.turn,
-                      d.first,
-                      d.middle,
-                      d.last};
+                      p.turn[d.n],
+                      p.first[d.n],
+                      middle,
+                      p.last[d.n]};
   above_.clear();
   for (std::size_t n = 0; n < edges.size; n += packet_lanes) {
     const std::size_t count = std::min(packet_lanes, edges.size - n);
-    std::uint32_t bits = d.is_unknown ? ~0U : wedge_pair_kernels().find_above(edges.edges[n / packet_lanes], seen);
+    std::uint32_t bits = d.is_unknown() ? ~0U : wedge_pair_kernels().find_above(edges.edges[n / packet_lanes], seen);
     bits &= (1U << count) - 1U;
     for (; bits != 0; bits &= bits - 1)
       above_.push_back(static_cast<std::uint32_t>(n) + static_cast<std::uint32_t>(std::countr_zero(bits)));
   }
 }
 
-void PacketEnvelope::find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, Doubt& d) {
+void PacketEnvelope::find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, const Doubt& d) {
   const std::size_t k = d.wedge, l = eye.lane;
   const double widest = std::sqrt(1.0 + wedges_[k].tangent * wedges_[k].tangent);
   envelope_.begin(wedges_[k], normal_of(eye.receivers, l), weight_);
@@ -318,8 +315,8 @@ void PacketEnvelope::find_sky(const Eye& eye, const EdgesInWedges::InWedge& edge
     add_level(wedges_[k], hidden, hidden);  // nowhere lower than `hidden`
     low = envelope_.sky().sky;
   }
-  d.low = static_cast<float>(term_of(low, k, eye.receivers, l));
-  d.high = static_cast<float>(term_of(known.sky, k, eye.receivers, l));
+  d.pairs.low[d.n] = static_cast<float>(term_of(low, k, eye.receivers, l));
+  d.pairs.high[d.n] = static_cast<float>(term_of(known.sky, k, eye.receivers, l));
 }
 
 /// Adds a straight edge across the wedge, whose ends have these slopes.
@@ -358,9 +355,10 @@ double PacketEnvelope::term_of(double sky, std::size_t k, const ReceiverPacket& 
 }
 
 void PacketEnvelope::keep_terms_of(std::size_t l) {
-  for (const Doubt& d : doubts_) {
-    terms_.low[d.wedge][l] = d.low;
-    terms_.high[d.wedge][l] = d.high;
+  for (std::size_t n = 0; n < doubtful_[l].size(); ++n) {
+    const Doubt d = doubt(l, n);
+    terms_.low[d.wedge][l] = d.pairs.low[d.n];
+    terms_.high[d.wedge][l] = d.pairs.high[d.n];
   }
 }
 
@@ -369,16 +367,15 @@ void PacketEnvelope::keep_terms_of(std::size_t l) {
 
 /// A lower border is drawn like an upper one, and its ends are marked.
 std::span<const PacketEnvelope::Row> PacketEnvelope::find_lower_borders(std::span<const EndBatch> ends,
-                                                                        const PacketHorizon& grounded,
                                                                         const PacketHorizon& lower_borders,
-                                                                        const ReceiverPacket& r, std::span<const Row> others) {
+                                                                        std::span<const Row> others) {
   for (Row& border : borders_) border.fill(0.0F);
-  raise_to_ends(ends, grounded, r, borders_);
+  raise_to_ends(ends, borders_);
   for (std::size_t k = 0; k < wedges_.size(); ++k)
     for (std::size_t l = 0; l < packet_lanes; ++l) {
       float top = borders_[k][l];
       for (const std::size_t azimuth : {k, next(k)})
-        if (lower_borders.row(azimuth)[l] > grounded.row(azimuth)[l]) top = std::max(top, lower_borders.row(azimuth)[l]);
+        if (lower_borders.row(azimuth)[l] > horizon_->row(azimuth)[l]) top = std::max(top, lower_borders.row(azimuth)[l]);
       borders_[k][l] = std::max(top * shape_.widened, others[k][l]);
     }
   return borders_;

@@ -32,38 +32,39 @@ class PacketEnvelope {
   /// The azimuths are even, at least so many, and outlive it.
   PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight);
 
+  /// Begins with a horizon of edges alone, which it tracks. All that follows is above it; both must outlive that.
+  void see(const PacketHorizon& horizon, const ReceiverPacket& receivers);
+  /// Rows of wedges: tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is
+  /// above the lower one of both horizons.
+  void raise_to_ends(std::span<const EndBatch> ends, std::span<Row> tops);
+
   /// What hides the sky. All of it must outlive the call.
   struct Occluders {
-    /// Edges that hide all that is below them; without those that are no higher than `horizon` in any of their wedges.
+    /// The edges of the horizon, which hide all that is below them; without those that are no higher than it in any of their
+    /// wedges.
     EdgeLists edges;
     std::span<const Row> tops;  ///< of their ends, as raise_to_ends() makes them
     const BorderEnds& ends_of_numbers;
-    const PacketHorizon& horizon;  ///< of the edges alone, which it tracks
   };
   /// What hides the sky besides, in rows of wedges: below `least` no sky is seen, and above `most` nothing hides it.
   struct Hiding {
     std::span<const Row> least, most;
   };
-  /// Rows of wedges: tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is
-  /// above the lower one of both horizons.
-  void raise_to_ends(std::span<const EndBatch> ends, const PacketHorizon& horizon, const ReceiverPacket& receivers,
-                     std::span<Row> tops);
   struct Bounds {
     Sums low{}, high{};
   };
   /// Bounds of the sky above the envelope, `wanted` apart where edges are what keeps them apart.
-  [[nodiscard]] Bounds bounds(const Occluders& occluders, const Hiding& hiding, const ReceiverPacket& receivers, double wanted);
+  [[nodiscard]] Bounds bounds(const Occluders& occluders, const Hiding& hiding, double wanted);
 
   /// Where sky may be seen under an overhang.
   struct Gaps {
     std::span<const Row> borders;           ///< rows of wedges: it is below them
-    std::span<const std::uint8_t> reached;  ///< the wedges that lower borders reach into; there it may also be between edges
+    std::span<const std::uint8_t> reached;  ///< the wedges that count; there it may also be between edges
   };
   /// How much sky lies between the edges and the borders, at most.
-  [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps, const ReceiverPacket& receivers);
-  /// Rows of wedges: the lower borders with these ends above the horizons, or `others` where these are higher.
-  [[nodiscard]] std::span<const Row> find_lower_borders(std::span<const EndBatch> ends, const PacketHorizon& grounded,
-                                                        const PacketHorizon& lower_borders, const ReceiverPacket& receivers,
+  [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps);
+  /// Rows of wedges: the lower borders with these ends above the horizon, or `others` where these are higher.
+  [[nodiscard]] std::span<const Row> find_lower_borders(std::span<const EndBatch> ends, const PacketHorizon& lower_borders,
                                                         std::span<const Row> others);
 
   /// Rows of wedges, of the last call of either: their terms in it. By the cosine, but for packets that look up, what cancels
@@ -77,18 +78,17 @@ class PacketEnvelope {
   [[nodiscard]] double term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const;
   [[nodiscard]] const Wedge& wedge(std::size_t k) const { return wedges_[k]; }
   [[nodiscard]] std::size_t size() const { return wedges_.size(); }
-  /// For each wedge, of the last call of any of these: the least of both horizons of all receivers.
+  /// For each wedge the least of both horizons of all receivers.
   [[nodiscard]] std::span<const float> least_horizons() const { return std::span(minima_).first(size()); }
 
  private:
-  /// A wedge that is not simple for a receiver.
+  /// A wedge that is not simple for a receiver: what is known of it.
   struct Doubt {
-    std::uint32_t wedge = 0;
-    float low = 0.0F, high = 0.0F;
-    float turn = 0.0F, first = 0.0F, middle = 0.0F, last = 0.0F;  ///< the pair's envelope: WedgeEye
-    float lid = 0.0F;
-    bool is_unknown = false;
-    [[nodiscard]] float width() const { return high - low; }
+    std::uint32_t wedge;
+    PairsAnswer& pairs;
+    std::size_t n;  ///< the wedge among the pairs
+    [[nodiscard]] bool is_unknown() const { return has_bit(pairs.unknown, n); }
+    [[nodiscard]] float width() const { return pairs.high[n] - pairs.low[n]; }
   };
   /// One receiver of the packet.
   struct Eye {
@@ -98,12 +98,9 @@ class PacketEnvelope {
     std::size_t lane;
   };
 
-  /// Sets the slopes and numbers of a horizon, which the receivers' own planes raise, and what is the least of them.
-  void take(const PacketHorizon& horizon, const ReceiverPacket& receivers);
-  void take(const Occluders& occluders, const ReceiverPacket& receivers);
-  SimpleSums sum_simple(const Hiding& hiding, const ReceiverPacket& receivers);
+  SimpleSums sum_simple(const Occluders& occluders, const Hiding& hiding);
   /// Those with bits, and all that are asked for who looks down.
-  void list_doubtful_wedges(const ReceiverPacket& receivers, const std::uint8_t* asked);
+  void list_doubtful_wedges(const std::uint8_t* asked);
   /// Calls answer(wedges, pairs) for sixteen doubtful wedges at once.
   template <class Answer>
   void visit_pairs(const Eye& eye, const Answer& answer);
@@ -113,11 +110,16 @@ class PacketEnvelope {
   void put_pair(const Eye& eye, std::size_t k, std::size_t n, WedgePairs& pairs) const;
   void put_edge(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
   void put_plane(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
-  void put_doubt(const Eye& eye, std::size_t k, const PairsAnswer& answer, std::size_t n);
+  /// A bit for each of these wedges that only all edges tell of.
+  [[nodiscard]] std::uint32_t beyond_pairs(const Eye& eye, std::span<const std::uint32_t> wedges) const;
+  /// The doubts of a receiver, after find_doubts().
+  [[nodiscard]] Doubt doubt(std::size_t lane, std::size_t n) {
+    return {doubtful_[lane][n], pairs_[n / packet_lanes], n % packet_lanes};
+  }
   void resolve_doubts(const Eye& eye, double width, double wanted);
-  void resolve(const Eye& eye, Doubt& doubt);
+  void resolve(const Eye& eye, const Doubt& doubt);
   void find_edges_above(const Eye& eye, const Doubt& doubt, const EdgesInWedges::InWedge& edges);
-  void find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, Doubt& doubt);
+  void find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, const Doubt& doubt);
   void add_level(const Wedge& wedge, double first, double last);
   void add_edges(const Eye& eye, const EdgesInWedges::InWedge& edges, std::size_t k);
   void keep_terms_of(std::size_t lane);
@@ -139,16 +141,19 @@ class PacketEnvelope {
   Terms terms_;
   Rows none_;  ///< hides nothing
   // Working memory, kept from packet to packet
+  const PacketHorizon* horizon_ = nullptr;
+  const ReceiverPacket* receivers_ = nullptr;
   WedgeWeight wedge_weight_ = WedgeWeight::cosine_up;
   const float* slopes_ = nullptr;  ///< of the horizon, raised to the receivers' own planes
   const std::int32_t* numbers_ = nullptr;
   Rows own_slopes_;
   std::vector<std::int32_t> own_numbers_;
-  Rows lower_, tops_, borders_;
+  Rows lower_, borders_;
   std::vector<float> minima_;
   std::vector<std::uint16_t> others_;  ///< a bit for each receiver for whom a wedge is not simple
   std::array<std::vector<std::uint32_t>, ReceiverPacket::lanes> doubtful_;  ///< these wedges
-  std::vector<Doubt> doubts_;
+  std::vector<PairsAnswer> pairs_;                                          ///< of the doubts of one receiver
+  std::vector<std::size_t> widest_;                                         ///< doubts, as a heap
   std::vector<std::uint32_t> above_;
 };
 

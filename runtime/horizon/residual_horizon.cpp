@@ -62,29 +62,23 @@ void ResidualHorizon::find_in_wedges(const ReceiverPacket& r, InWedges& rows) co
   const std::size_t count = bin_of_azimuth_.size();
   if (rows.least.size() == count && rows.patches == patches) return;
   rows.patches = patches;
-  for (auto* all : {&rows.least, &rows.most, &rows.overhang.rows}) all->resize(count);
+  for (auto* all : {&rows.least, &rows.most, &rows.overhang}) all->resize(count);
   const auto lower = [](float a, float b) { return std::min(a, b); };
   const auto higher = [](float a, float b) { return std::max(a, b); };
   for_each_patch([&](std::size_t lane) { return patches[lane]; },
                  [&](Patch patch, const PacketHorizon::Lanes& caps) {
                    fill_wedges(low_row(patch), caps, lower, rows.least);
                    fill_wedges(high_row(patch), caps, higher, rows.most);
-                   fill_wedges(overhang_row(patch), caps, higher, rows.overhang.rows);
+                   fill_wedges(overhang_row(patch), caps, higher, rows.overhang);
                  });
-  rows.overhang_below_low.rows = rows.overhang.rows;
+  rows.overhang_below_low = rows.overhang;
+  rows.reached_below_low.assign(count, 0);
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
-      float& border = rows.overhang_below_low.rows[k][l];
+      float& border = rows.overhang_below_low[k][l];
       border = std::min(border, rows.least[k][l]);
+      if (border > 0.0F) rows.reached_below_low[k] = 1;
     }
-  for (InWedges::Borders* borders : {&rows.overhang, &rows.overhang_below_low}) find_reached(*borders);
-}
-
-void ResidualHorizon::find_reached(InWedges::Borders& borders) {
-  borders.reached.assign(borders.rows.size(), 0);
-  for (std::size_t k = 0; k < borders.rows.size(); ++k)
-    for (const float slope : borders.rows[k])
-      if (slope > 0.0F) borders.reached[k] = 1;
 }
 
 template <class Choose>

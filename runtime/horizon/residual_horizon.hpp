@@ -29,12 +29,8 @@ class ResidualHorizon {
   /// Rows of wedges (wedge_kernels.hpp): the low bound of all their bins, their high bound, and that of lower borders: all, and
   /// those below the low bound.
   struct InWedges {
-    std::vector<PacketHorizon::Row> least, most;
-    struct Borders {
-      std::vector<PacketHorizon::Row> rows;
-      std::vector<std::uint8_t> reached;  ///< whether there is one for any receiver
-    };
-    Borders overhang, overhang_below_low;
+    std::vector<PacketHorizon::Row> least, most, overhang, overhang_below_low;
+    std::vector<std::uint8_t> reached_below_low;                              ///< whether there is one for any receiver
     std::array<std::optional<std::uint32_t>, ReceiverPacket::lanes> patches;  ///< that these are of
   };
   /// Rows of an earlier call are kept where they are right.
@@ -45,7 +41,6 @@ class ResidualHorizon {
   void raise_to_overhang(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
 
  private:
-  static void find_reached(InWedges::Borders& borders);
   /// Sets each wedge of the receivers with caps to the chosen slope of its bins.
   template <class Choose>
   void fill_wedges(std::span<const float> row, const PacketHorizon::Lanes& caps, const Choose& choose,

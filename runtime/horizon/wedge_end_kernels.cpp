@@ -50,18 +50,16 @@ FARLOD_LANES Floats slope_of_end(const Floats& rise, const Floats& square) {
 /// Raises the tops of some wedges in a row to an end, in the wedge between d and e where each receiver sees it: d × p ≥ 0 and
 /// p × e ≥ 0, with a margin. A wedge opposite counts, too, where it is among these: more, never less.
 FARLOD_LANES void raise_few(const Floats& x, const Floats& y, const Floats& rise, const AzimuthView& a, std::uint32_t first,
-                            std::uint32_t count, const float* minima, float* tops) {
+                            std::uint32_t count, float* tops) {
   const Floats slope = slope_of_end(rise, x * x + y * y), margin = -1e-6F * (abs(x) + abs(y));
-  const float highest = max_lane(slope);
   const auto to_left_of = [&](std::uint32_t k) { return a.cosine[k] * y - a.sine[k] * x; };
   Floats before = to_left_of(first);
   for (std::uint32_t n = 0, wedge = first; n < count; ++n) {
     const std::uint32_t next = wedge + 1 < a.size ? wedge + 1 : 0;
     const Floats after = to_left_of(next);
-    if (highest > minima[wedge]) {
-      float* top = tops + std::size_t{wedge} * lane_count;
-      store(max(load(top), choose(min(before, -after) >= margin, slope, broadcast(0.0F))), top);
-    }
+    // Whether it is above a horizon or not: a branch would cost more
+    float* top = tops + std::size_t{wedge} * lane_count;
+    store(max(load(top), choose(min(before, -after) >= margin, slope, broadcast(0.0F))), top);
     before = after;
     wedge = next;
   }
@@ -138,7 +136,7 @@ FARLOD_LANES void raise_tops_of(const EndBatch& ends, const CenteredBox& box, co
     // Faster than each receiver's own wedge
     constexpr std::uint32_t few = 10;
     if (count <= few)
-      raise_few(x, y, rise, a, first, count, lower.minima, tops);
+      raise_few(x, y, rise, a, first, count, tops);
     else
       raise_many(x, y, rise, a, lower.rows, tops);
   }

@@ -41,6 +41,7 @@ struct EdgeSpans {
   float* max_slope;
 };
 struct WedgeEndKernels {
+  /// The lower horizons of horizons.
   void (*find_lower)(const float* slopes, std::size_t azimuths, const LowerHorizons& lower);
   /// tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is above `lower`.
   void (*raise_tops)(std::span<const EndBatch> ends, const ReceiverPacket& receivers, const CenteredBox& box,
@@ -117,16 +118,16 @@ struct WedgeSkyKernels {
   void (*raise_to_planes)(const float* slopes, const std::int32_t* numbers, const ReceiverPacket& receivers,
                           const AzimuthView& azimuths, float* raised, std::int32_t* raised_numbers);
   /// A wedge is simple where one edge is highest at both azimuths, and no end rises above its horizons (`tops`): there it hides
-  /// all that edges hide. Sums up the sky of these; sets tops = max(tops, both horizons), and a bit for each receiver for whom a
-  /// wedge is not simple. By the cosine, but for cosine_up, the terms of upright borders are left out, since they cancel from
-  /// wedge to wedge. Not for receivers that look down.
+  /// all that edges hide. Sums up the sky of these, and sets a bit for each receiver for whom a wedge is not simple. By the
+  /// cosine, but for cosine_up, the terms of upright borders are left out, since they cancel from wedge to wedge. Not for
+  /// receivers that look down.
   void (*sum_simple)(const NumberedHorizon& horizon, const HidingRows& hiding, const ReceiverPacket& receivers,
-                     const AzimuthView& azimuths, const WedgeShape& shape, WedgeWeight weight, std::uint16_t* others, float* tops,
-                     SimpleSums& sums);
+                     const AzimuthView& azimuths, const WedgeShape& shape, WedgeWeight weight, std::uint16_t* others,
+                     const float* tops, SimpleSums& sums);
   /// The same for the sky between the edges and higher borders, at most: rows of it.
   void (*find_simple_gaps)(const NumberedHorizon& horizon, const AskedBorders& asked, const ReceiverPacket& receivers,
                            const AzimuthView& azimuths, const WedgeShape& shape, WedgeWeight weight, std::uint16_t* others,
-                           float* tops, float* gaps);
+                           const float* tops, float* gaps);
 };
 
 struct WedgePairKernels {

@@ -89,10 +89,9 @@ FARLOD_LANES Floats most_sky_between(const Floats& low, const Floats& high, cons
   const Floats below = min(high, broadcast(straight_up));
   if constexpr (weight == WedgeWeight::cosine_up) return max(angle / (1.0F + low * low) - angle / (1.0F + below * below), none);
   const SlopeInterval in_front = slopes_in_front(outward, upward);
-  const auto above = [&](const Floats& slope) {
-    return cosine_above(min(max(slope, in_front.lowest), in_front.highest), outward, upward);
-  };
-  return angle * max(above(low) - above(below), none);
+  // Not by a lambda, which would be emitted on its own for each target
+  const Floats from = min(max(low, in_front.lowest), in_front.highest), to = min(max(below, in_front.lowest), in_front.highest);
+  return angle * max(cosine_above(from, outward, upward) - cosine_above(to, outward, upward), none);
 }
 
 }  // namespace farlod

@@ -118,13 +118,13 @@ FARLOD_LANES Floats bound_pairs_by(const WedgePairs& e, const WedgeShape& w, Pai
   if constexpr (weight == WedgeWeight::cosine_up) {
     // Between both, all may be sky
     store(min(sky + gap, w.angle / (1.0F + least * least)), answer.high);
-    const Floats below = min(top, broadcast(straight_up));
-    store(w.angle / (1.0F + below * below), answer.low);
+    const Floats below = min(top, broadcast(straight_up)), high = load(answer.high);
+    store(min(high, w.angle / (1.0F + below * below)), answer.low);
     answer.unknown = bits_of(known < 0.5F);
   } else {
     const Floats outward = most_outward(n.x, n.x * w.cosine + n.y * w.sine, w);
     store(sky, answer.high);
-    store(sky - most_sky_between<weight>(lid, top, outward, n.z, w.angle), answer.low);
+    store(min(sky, sky - most_sky_between<weight>(lid, top, outward, n.z, w.angle)), answer.low);
     const Floats is_doubtful = max(gap - 1e-6F * w.tangent, least - lid);
     answer.unknown = bits_of(known < 0.5F) | bits_of(is_doubtful > 0.0F);
   }

@@ -68,7 +68,7 @@ FARLOD_LANES void add_simple(const SimpleWedge& s, const WedgeShape& w, Sum& low
 
 template <WedgeWeight weight>
 FARLOD_LANES void sum_simple_by(const NumberedHorizon& h, const HidingRows& hiding, const ReceiverPacket& r, const AzimuthView& a,
-                                const WedgeShape& w, std::uint16_t* others, float* tops, SimpleSums& sums) {
+                                const WedgeShape& w, std::uint16_t* others, const float* tops, SimpleSums& sums) {
   Sum low(sums.low_rows), high(sums.high_rows);
   const Normals n = normals_of(r);
   // Several at once: roots and divisions of one would wait for each other
@@ -88,7 +88,6 @@ FARLOD_LANES void sum_simple_by(const NumberedHorizon& h, const HidingRows& hidi
       const Floats rising = weight == WedgeWeight::cosine_up ? top : max(top, max(s.least, s.most));
       s.simple = simple_of(h, at, next, rising, s.lower);
       others[k] = static_cast<std::uint16_t>(bits_of(s.simple < 0.5F));
-      store(max(top, s.higher), tops + at);
       add_simple<weight>(s, w, low, high);
     }
   }
@@ -97,7 +96,7 @@ FARLOD_LANES void sum_simple_by(const NumberedHorizon& h, const HidingRows& hidi
 }
 
 void sum_simple(const NumberedHorizon& h, const HidingRows& hiding, const ReceiverPacket& r, const AzimuthView& a,
-                const WedgeShape& w, WedgeWeight weight, std::uint16_t* others, float* tops, SimpleSums& sums) {
+                const WedgeShape& w, WedgeWeight weight, std::uint16_t* others, const float* tops, SimpleSums& sums) {
   switch (weight) {
     case WedgeWeight::cosine_up:
       return sum_simple_by<WedgeWeight::cosine_up>(h, hiding, r, a, w, others, tops, sums);
@@ -110,17 +109,16 @@ void sum_simple(const NumberedHorizon& h, const HidingRows& hiding, const Receiv
 
 template <WedgeWeight weight>
 FARLOD_LANES void find_simple_gaps_by(const NumberedHorizon& h, const AskedBorders& asked, const ReceiverPacket& r,
-                                      const AzimuthView& a, const WedgeShape& w, std::uint16_t* others, float* tops,
+                                      const AzimuthView& a, const WedgeShape& w, std::uint16_t* others, const float* tops,
                                       float* gaps) {
   const Normals n = normals_of(r);
   const Floats none = broadcast(0.0F);
   for (std::size_t k = 0; k < a.size; ++k) {
     if (asked.wedges[k] == 0) continue;
     const std::size_t after = k + 1 < a.size ? k + 1 : 0, at = k * lane_count, next = after * lane_count;
-    const Floats t = load(h.slopes + at), u = load(h.slopes + next), lower = min(t, u), higher = max(t, u);
+    const Floats t = load(h.slopes + at), u = load(h.slopes + next), lower = min(t, u);
     const Floats simple = simple_of(h, at, next, load(tops + at), lower), border = load(asked.borders + at);
     others[k] = static_cast<std::uint16_t>(bits_of(simple < 0.5F));
-    store(max(load(tops + at), higher), tops + at);
     const Floats outward = most_outward(n.x * a.cosine[k] + n.y * a.sine[k], n.x * a.cosine[after] + n.y * a.sine[after], w);
     const Floats sky = most_sky_between<weight>(lower, border, outward, n.z, w.angle);
     store(choose(border > lower, simple * sky, none), gaps + at);
@@ -128,7 +126,7 @@ FARLOD_LANES void find_simple_gaps_by(const NumberedHorizon& h, const AskedBorde
 }
 
 void find_simple_gaps(const NumberedHorizon& h, const AskedBorders& asked, const ReceiverPacket& r, const AzimuthView& a,
-                      const WedgeShape& w, WedgeWeight weight, std::uint16_t* others, float* tops, float* gaps) {
+                      const WedgeShape& w, WedgeWeight weight, std::uint16_t* others, const float* tops, float* gaps) {
   switch (weight) {
     case WedgeWeight::cosine_up:
       return find_simple_gaps_by<WedgeWeight::cosine_up>(h, asked, r, a, w, others, tops, gaps);

@@ -58,11 +58,12 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
     ends_.find(list_, ends_of_numbers_);
     horizon_ = PacketHorizon(azimuths_, PacketHorizon::Edges::tracked);
     horizon_.raise(edges_, receivers_);
+    envelope_.see(horizon_, receivers_);
     tops_ = rows_of(0.0F);
-    envelope_.raise_to_ends(ends_.batches(), horizon_, receivers_, tops_);
+    envelope_.raise_to_ends(ends_.batches(), tops_);
   }
 
-  [[nodiscard]] PacketEnvelope::Occluders occluders() const { return {list_, tops_, ends_of_numbers_, horizon_}; }
+  [[nodiscard]] PacketEnvelope::Occluders occluders() const { return {list_, tops_, ends_of_numbers_}; }
   /// The sky of a wedge above all edges, and above a level edge across it whose ends have this slope.
   [[nodiscard]] double exact_sky(std::size_t k, std::size_t l, double slope) {
     const Wedge& w = envelope_.wedge(k);
@@ -103,7 +104,7 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
 TEST_P(PacketEnvelopes, BoundTheSkyAboveAllEdges) {
   const PacketEnvelope::Rows nothing = rows_of(0.0F);
   for (const double wanted : {1.0, 0.005, 0.0}) {
-    const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, receivers_, wanted);
+    const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, wanted);
     for (std::size_t l = 0; l < receivers_.count; ++l) {
       const double exact = exact_share(l, 0.0);
       EXPECT_LE(bounds.low[l], exact + float_error) << l << ", wanted " << wanted;
@@ -128,7 +129,7 @@ TEST_P(PacketEnvelopes, BoundTheSkyOfWedgesInWhichAnEdgeDips) {
     draw(gables);
     // The horizons of azimuths between which edges dip have errors of floats, too
     constexpr double term_error = 2e-6;
-    const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, receivers_, 1.0);
+    const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, 1.0);
     for (std::size_t l = 0; l < receivers_.count; ++l) {
       EXPECT_LE(bounds.low[l], bounds.high[l]) << l;
       for (std::size_t k = 0; k < envelope_.size(); ++k) {
@@ -143,7 +144,7 @@ TEST_P(PacketEnvelopes, BoundTheSkyOfWedgesInWhichAnEdgeDips) {
 TEST_P(PacketEnvelopes, BoundWhatElseMayHide) {
   constexpr float least = 0.15F, most = 0.5F;
   const PacketEnvelope::Rows least_rows = rows_of(least), most_rows = rows_of(most);
-  const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {least_rows, most_rows}, receivers_, 0.005);
+  const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {least_rows, most_rows}, 0.005);
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     // A level edge is steepest in the middle of a wedge
     const double ends = most * std::cos(0.5 * turn_rad / static_cast<double>(azimuths_.size()));
@@ -157,7 +158,7 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBorders) {
   const PacketEnvelope::Rows borders = rows_of(border);
   std::vector<std::uint8_t> reached(azimuths_.size(), 1);
   reached[3] = 0;
-  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {borders, reached}, receivers_);
+  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {borders, reached});
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     double between = 0.0;
     // A level edge lies above the slope of its ends: less of the sky is below the slope
@@ -172,7 +173,7 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBorders) {
 TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBordersBetweenHorizons) {
   // No border is given: those that are no higher than a receiver's horizons at both azimuths are nowhere told
   const std::vector<std::uint8_t> reached(azimuths_.size(), 1);
-  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {rows_of(0.0F), reached}, receivers_);
+  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {rows_of(0.0F), reached});
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     double between = 0.0;
     for (std::size_t k = 0; k < envelope_.size(); ++k) {
@@ -187,7 +188,7 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBordersBetweenHorizons) {
 TEST_P(PacketEnvelopes, AreTheSumsOfTheirTerms) {
   const PacketEnvelope::Rows nothing = rows_of(0.0F);
   envelope_.keep_terms();
-  const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, receivers_, 0.005);
+  const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, 0.005);
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     double low = 0.0, high = 0.0, exact = 0.0;
     for (std::size_t k = 0; k < envelope_.size(); ++k) {
