@@ -71,7 +71,7 @@ double CertainSky::Open::farther_end_from(double value, std::size_t lane) const 
 /// lower borders.
 CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead) {
   residual_.find_in_wedges(receivers, in_wedges_);
-  envelope_.see(near.grounded, receivers);
+  envelope_.see(near.grounded(), receivers);
   tops_.assign(envelope_.size(), {});
   envelope_.raise_to_ends(upper_places_.batches(), tops_);
   Open open;
@@ -89,7 +89,7 @@ PacketEnvelope::Bounds CertainSky::sky_above_borders(const NearHorizons& near, c
   const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
   if (!has_overhangs()) return envelope_.bounds({std::span(upper).first(1), tops_, silhouettes_.upper_ends}, hiding, wanted_);
-  envelope_.see(with_far(near.upper_borders, far_.overhangs, receivers, upper_), receivers);
+  envelope_.see(with_far(near.upper_borders(), far_.overhangs, receivers, upper_), receivers);
   envelope_.raise_to_ends(upper_places_.further_batches(), tops_);
   return envelope_.bounds({upper, tops_, silhouettes_.upper_ends}, hiding, wanted_);
 }
@@ -123,8 +123,8 @@ void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t belo
   may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
   if (below == 0) {
     const std::array<const SilhouetteEdges*, 2> overhangs{&near_.overhangs, &far_.overhangs};
-    edges_in_wedges_.begin(overhangs, bounds_of(receivers));
-    edges_in_wedges_.mark_reached(envelope_.least_horizons(), may_hide_);
+    edges_in_wedges_.begin(overhangs, bounds_of(receivers), envelope_.least_horizons());
+    edges_in_wedges_.mark_reached(may_hide_);
   }
   for (std::size_t k = 0; k < reached_.size(); ++k)
     if (may_hide_[k] != 0) reached_[k] = 1;
@@ -137,8 +137,8 @@ void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t belo
 
 std::span<const PacketHorizon::Row> CertainSky::lower_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
   if (!has_undersides()) return residual_borders_;
-  return envelope_.find_lower_borders(lower_places_.batches(), with_far(near.lower_borders, far_.undersides, receivers, lower_),
-                                      residual_borders_);
+  return envelope_.find_lower_borders(lower_places_.batches(), with_far(near.lower_borders(), far_.undersides, receivers, lower_),
+                                      {residual_borders_, reached_});
 }
 
 double CertainSky::OpenWedges::width(std::size_t k) const { return high(k) + gap(k) - low(k); }

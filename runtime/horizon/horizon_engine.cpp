@@ -133,8 +133,7 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   const Overhead overhead = recesses_.overhead_of(receivers, overhangs_.receivers_below(receivers));
   recesses_.draw_again(
       receivers, overhead, [](const ReceiverPacket&, PacketHorizon&) {}, horizons_.grounded);
-  near_.grounded = horizons_.grounded;
-  near_.draw(in_sight(overhead).near, receivers);
+  near_.draw(horizons_.grounded, in_sight(overhead).near, receivers);
   const SkyAtAzimuths at_azimuths = profile_ ? bounds_at_azimuths(receivers, overhead) : SkyAtAzimuths{};
   residual_.raise_to_estimate(receivers, horizons_.grounded);
   evaluate(receivers, overhead, answer, &near_);
@@ -172,7 +171,7 @@ HorizonEngine::SkyAtAzimuths HorizonEngine::bounds_at_azimuths(const ReceiverPac
   // The least: sky above its high bound, and nothing of the gaps
   residual_.raise_to_high(receivers, horizons_.upper_borders);
   sky.low = horizons_.upper_borders.sky_above(weight_, receivers);
-  horizons_.grounded = near_.grounded;
+  horizons_.grounded = near_.grounded();
   return sky;
 }
 

@@ -162,11 +162,18 @@ std::uint32_t OverhangGeometry::receivers_below(const ReceiverPacket& r) const {
   return bits;
 }
 
-void NearHorizons::draw(const OverhangEdges& near, const ReceiverPacket& receivers) {
-  upper_borders = grounded;
-  upper_borders.raise(near.overhangs, receivers);
-  lower_borders.set_slopes(grounded);
-  lower_borders.raise(near.undersides, receivers);
+void NearHorizons::draw(const PacketHorizon& grounded, const OverhangEdges& near, const ReceiverPacket& receivers) {
+  grounded_ = grounded;
+  has_upper_ = !near.overhangs.empty();
+  has_lower_ = !near.undersides.empty();
+  if (has_upper_) {
+    upper_ = grounded;
+    upper_.raise(near.overhangs, receivers);
+  }
+  if (has_lower_) {
+    lower_.set_slopes(grounded);
+    lower_.raise(near.undersides, receivers);
+  }
 }
 
 void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, const Overhead& overhead,
@@ -183,8 +190,8 @@ void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const Rece
   // Then the near overhangs; a receiver below one sees no sky above it
   lower_borders.raise_to(grounded);
   if (near != nullptr) {
-    upper_borders.raise_to(near->upper_borders);
-    lower_borders.raise_to(near->lower_borders);
+    upper_borders.raise_to(near->upper_borders());
+    lower_borders.raise_to(near->lower_borders());
   } else {
     upper_borders.raise(overhangs.near.overhangs, receivers);
     lower_borders.raise(overhangs.near.undersides, receivers);

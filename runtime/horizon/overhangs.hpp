@@ -80,16 +80,20 @@ enum class FarGapEnd : std::uint8_t {
 };
 
 /// Horizons of edges alone, without the residual one: the grounded ones, and these with the borders of near overhangs.
-struct NearHorizons {
+class NearHorizons {
+ public:
   explicit NearHorizons(const AzimuthSampling& azimuths)
-      : grounded(azimuths, PacketHorizon::Edges::tracked),
-        upper_borders(azimuths, PacketHorizon::Edges::tracked),
-        lower_borders(azimuths) {}
+      : grounded_(azimuths, PacketHorizon::Edges::tracked), upper_(azimuths, PacketHorizon::Edges::tracked), lower_(azimuths) {}
 
-  PacketHorizon grounded, upper_borders, lower_borders;
+  void draw(const PacketHorizon& grounded, const OverhangEdges& near, const ReceiverPacket& receivers);
 
-  /// Draws the borders above `grounded`.
-  void draw(const OverhangEdges& near, const ReceiverPacket& receivers);
+  [[nodiscard]] const PacketHorizon& grounded() const { return grounded_; }
+  [[nodiscard]] const PacketHorizon& upper_borders() const { return has_upper_ ? upper_ : grounded_; }
+  [[nodiscard]] const PacketHorizon& lower_borders() const { return has_lower_ ? lower_ : grounded_; }
+
+ private:
+  PacketHorizon grounded_, upper_, lower_;
+  bool has_upper_ = false, has_lower_ = false;
 };
 
 /// The slopes between which a packet's receivers may see sky, where something overhangs. Each azimuth is divided, from below:

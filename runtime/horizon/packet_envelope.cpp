@@ -77,7 +77,7 @@ void PacketEnvelope::raise_to_ends(std::span<const EndBatch> ends, std::span<Row
 
 PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, double wanted) {
   const ReceiverPacket& r = *receivers_;
-  edges_.begin(occluders.edges, bounds_of(r));
+  edges_.begin(occluders.edges, bounds_of(r), minima_.data());
   const SimpleSums simple = sum_simple(occluders, hiding);
   list_doubtful_wedges(nullptr);
   Bounds bounds;
@@ -245,24 +245,22 @@ void PacketEnvelope::resolve_doubts(const Eye& eye, double width, double wanted)
   }
   if (width <= wanted) return;
   // Each is resolved once: the heap shrinks
-  const auto width_of = [&](std::size_t n) { return doubt(l, n).is_unknown() ? 0.0F : doubt(l, n).width(); };
-  const auto narrower = [&](std::size_t a, std::size_t b) { return width_of(a) < width_of(b); };
-  widest_.resize(count);
-  std::iota(widest_.begin(), widest_.end(), std::size_t{0});
+  widest_.clear();
+  for (std::size_t n = 0; n < count; ++n)
+    if (!doubt(l, n).is_unknown() && doubt(l, n).width() > 0.0F) widest_.push_back({doubt(l, n).width(), n});
+  const auto narrower = [](const WidthOfDoubt& a, const WidthOfDoubt& b) { return a.width < b.width; };
   std::make_heap(widest_.begin(), widest_.end(), narrower);
   for (auto end = widest_.end(); width > wanted && end != widest_.begin(); --end) {
     std::pop_heap(widest_.begin(), end, narrower);
-    const Doubt widest = doubt(l, *(end - 1));
-    if (widest.is_unknown() || widest.width() <= 0.0F) return;
-    width -= static_cast<double>(widest.width());
-    resolve(eye, widest);
-    width += static_cast<double>(widest.width());
+    const WidthOfDoubt& widest = *(end - 1);
+    resolve(eye, doubt(l, widest.n));
+    width += static_cast<double>(doubt(l, widest.n).width()) - static_cast<double>(widest.width);
   }
 }
 
 void PacketEnvelope::resolve(const Eye& eye, const Doubt& d) {
   const std::size_t k = d.wedge, l = eye.lane;
-  const EdgesInWedges::InWedge& edges = edges_.reaching(k, minima_[k]);
+  const EdgesInWedges::InWedge& edges = edges_.reaching(k);
   find_edges_above(eye, d, edges);
   const float hidden = std::max(eye.hiding.most[k][l], minima_[k]), lid = d.pairs.lid[d.n];
   if (!d.is_unknown() && above_.empty() && eye.hiding.least[k][l] <= lid && hidden <= lid)
@@ -367,17 +365,18 @@ void PacketEnvelope::keep_terms_of(std::size_t l) {
 
 /// A lower border is drawn like an upper one, and its ends are marked.
 std::span<const PacketEnvelope::Row> PacketEnvelope::find_lower_borders(std::span<const EndBatch> ends,
-                                                                        const PacketHorizon& lower_borders,
-                                                                        std::span<const Row> others) {
+                                                                        const PacketHorizon& lower_borders, const Gaps& others) {
   for (Row& border : borders_) border.fill(0.0F);
   raise_to_ends(ends, borders_);
-  for (std::size_t k = 0; k < wedges_.size(); ++k)
+  for (std::size_t k = 0; k < wedges_.size(); ++k) {
+    if (others.reached[k] == 0) continue;
     for (std::size_t l = 0; l < packet_lanes; ++l) {
       float top = borders_[k][l];
       for (const std::size_t azimuth : {k, next(k)})
         if (lower_borders.row(azimuth)[l] > horizon_->row(azimuth)[l]) top = std::max(top, lower_borders.row(azimuth)[l]);
-      borders_[k][l] = std::max(top * shape_.widened, others[k][l]);
+      borders_[k][l] = std::max(top * shape_.widened, others.borders[k][l]);
     }
+  }
   return borders_;
 }
 

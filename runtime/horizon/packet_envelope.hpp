@@ -63,9 +63,9 @@ class PacketEnvelope {
   };
   /// How much sky lies between the edges and the borders, at most.
   [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps);
-  /// Rows of wedges: the lower borders with these ends above the horizon, or `others` where these are higher.
+  /// Rows of the wedges that count: the lower borders with these ends above the horizon, or `others` where these are higher.
   [[nodiscard]] std::span<const Row> find_lower_borders(std::span<const EndBatch> ends, const PacketHorizon& lower_borders,
-                                                        std::span<const Row> others);
+                                                        const Gaps& others);
 
   /// Rows of wedges, of the last call of either: their terms in it. By the cosine, but for packets that look up, what cancels
   /// from wedge to wedge is left out, as `term_of` does after bounds().
@@ -78,8 +78,8 @@ class PacketEnvelope {
   [[nodiscard]] double term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const;
   [[nodiscard]] const Wedge& wedge(std::size_t k) const { return wedges_[k]; }
   [[nodiscard]] std::size_t size() const { return wedges_.size(); }
-  /// For each wedge the least of both horizons of all receivers.
-  [[nodiscard]] std::span<const float> least_horizons() const { return std::span(minima_).first(size()); }
+  /// LowerHorizons::minima.
+  [[nodiscard]] const float* least_horizons() const { return minima_.data(); }
 
  private:
   /// A wedge that is not simple for a receiver: what is known of it.
@@ -153,7 +153,11 @@ class PacketEnvelope {
   std::vector<std::uint16_t> others_;  ///< a bit for each receiver for whom a wedge is not simple
   std::array<std::vector<std::uint32_t>, ReceiverPacket::lanes> doubtful_;  ///< these wedges
   std::vector<PairsAnswer> pairs_;                                          ///< of the doubts of one receiver
-  std::vector<std::size_t> widest_;                                         ///< doubts, as a heap
+  struct WidthOfDoubt {
+    float width;
+    std::size_t n;
+  };
+  std::vector<WidthOfDoubt> widest_;  ///< a heap
   std::vector<std::uint32_t> above_;
 };
 

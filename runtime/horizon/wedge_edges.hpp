@@ -42,18 +42,19 @@ class EdgesInWedges {
  public:
   /// The azimuths must outlive it.
   explicit EdgesInWedges(const AzimuthSampling& azimuths) : azimuths_(azimuths), wedges_(azimuths.size()) {}
-  /// Begins a packet with these bounds. `edges` must live as long as it is asked.
-  void begin(EdgeLists edges, const PacketBounds& bounds);
+  /// Begins a packet with these bounds and the least of its horizons: LowerHorizons::minima. All must live as long as it is
+  /// asked.
+  void begin(EdgeLists edges, const PacketBounds& bounds, const float* minima);
 
   struct InWedge {
     bool is_known = false;
     std::size_t size = 0;           ///< edges
     std::vector<WedgeEdges> edges;  ///< sixteen at once; the last one fills up
   };
-  /// Those of a wedge that may be steeper than a slope, which is the same at each call.
-  [[nodiscard]] const InWedge& reaching(std::size_t wedge, float slope);
-  /// Marks the wedges into which some edge may reach above `least`, a slope for each wedge.
-  void mark_reached(std::span<const float> least, std::span<std::uint8_t> wedges);
+  /// Those of a wedge that may rise above the least horizon there.
+  [[nodiscard]] const InWedge& reaching(std::size_t wedge);
+  /// Marks the wedges into which some edge may rise above the least horizon.
+  void mark_reached(std::span<std::uint8_t> wedges);
 
  private:
   void find_spans();
@@ -63,9 +64,11 @@ class EdgesInWedges {
   const AzimuthSampling& azimuths_;
   std::vector<const SilhouetteEdges*> lists_;
   PacketBounds bounds_;
+  const float* minima_ = nullptr;
   bool has_spans_ = false;
+  std::size_t span_count_ = 0;
   std::vector<InWedge> wedges_;
-  std::vector<std::uint32_t> first_, count_, found_;
+  std::vector<std::uint32_t> number_, first_, count_, found_;
   std::vector<float> max_slope_;
 };
 

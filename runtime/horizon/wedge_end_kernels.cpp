@@ -115,6 +115,13 @@ FARLOD_LANES void raise_many(const Floats& x, const Floats& y, const Floats& ris
   raise_lanes(raised, at_border, to_array(slope_of_end(rise, square)), wedges, a.size, tops);
 }
 
+/// The least of so many wedges in a row, of LowerHorizons::minima: that of two runs.
+FARLOD_LANES float least_of_run(const float* minima, std::uint32_t turn, std::uint32_t first, std::uint32_t count) {
+  const std::uint32_t level = 31U - static_cast<std::uint32_t>(__builtin_clz(count));
+  const float* of_level = minima + std::size_t{level} * turn;
+  return std::min(of_level[first], of_level[within_turn(first + count - (1U << level), turn)]);
+}
+
 FARLOD_LANES void raise_tops_of(const EndBatch& ends, const CenteredBox& box, const Eyes& eyes, const AzimuthView& a,
                                 const LowerHorizons& lower, float* tops) {
   const EdgeReach reach = reach_of_ends(ends, box, a.slots);
@@ -127,12 +134,10 @@ FARLOD_LANES void raise_tops_of(const EndBatch& ends, const CenteredBox& box, co
       raise_many(x, y, rise, a, lower.rows, tops);
       continue;
     }
-    // The wedges from that of the first azimuth on; the least horizon over them is that of two runs
+    // The wedges from that of the first azimuth on
     const std::uint32_t begin = a.first_of_slot[from[m]] - 1, count = a.first_of_slot[to[m]] - begin;
-    const std::uint32_t first = within_turn(begin, a.size), level = 31U - static_cast<std::uint32_t>(__builtin_clz(count));
-    const std::uint32_t other = within_turn(begin + count - (1U << level), a.size);
-    const float* minima = lower.minima + std::size_t{level} * a.size;
-    if (!(slopes[m] > std::min(minima[first], minima[other]))) continue;
+    const std::uint32_t first = within_turn(begin, a.size);
+    if (!(slopes[m] > least_of_run(lower.minima, a.size, first, count))) continue;
     // Faster than each receiver's own wedge
     constexpr std::uint32_t few = 10;
     if (count <= few)
@@ -169,24 +174,34 @@ void find_lower(const float* slopes, std::size_t azimuths, const LowerHorizons& 
 // --- Edges in wedges
 // --------------------------------------------------------------------------------------------------------------
 
-void find_spans(const EdgeBatches& edges, const PacketBounds& bounds, const AzimuthView& a, const EdgeSpans& spans) {
-  std::size_t n = 0;
+/// Appends an edge that is steeper than the least of some wedge that it reaches into.
+FARLOD_LANES void append_span(std::uint32_t number, float max_slope, std::uint32_t from, std::uint32_t to, const AzimuthView& a,
+                              const float* minima, const EdgeSpans& spans, std::size_t& size) {
+  const bool is_near = max_slope == EdgeReach::unbounded;
+  const std::uint32_t begin = is_near ? 0 : a.first_of_slot[from] - 1, end = is_near ? a.size : a.first_of_slot[to];
+  const std::uint32_t first = within_turn(begin, a.size), count = std::min(end - begin, a.size);
+  if (!(max_slope > least_of_run(minima, a.size, first, count))) return;
+  spans.number[size] = number;
+  spans.first[size] = first;
+  spans.count[size] = count;
+  spans.max_slope[size++] = max_slope;
+}
+
+std::size_t find_spans(const EdgeBatches& edges, std::uint32_t number, const PacketBounds& bounds, const AzimuthView& a,
+                       const float* minima, const EdgeSpans& spans) {
+  std::size_t size = 0;
   for (const SilhouetteEdges::Batch& batch : edges.batches) {
     const EdgeReach reach = reach_of(batch, bounds);
-    const std::uint32_t seen = seen_edges(reach);
     const std::array from = to_array(truncate(reach.from * a.slots)), to = to_array(truncate(reach.to * a.slots) + 1);
     const std::array max_slope = to_array(reach.max_slope);
-    for (std::size_t m = 0; m < lane_count; ++m, ++n) {
-      const bool is_seen = ((seen >> m) & 1U) != 0, is_near = max_slope[m] == EdgeReach::unbounded;
-      spans.first[n] = 0;
-      spans.count[n] = is_seen && is_near ? a.size : 0;
-      spans.max_slope[n] = is_seen ? max_slope[m] : 0.0F;
-      if (!is_seen || is_near) continue;
-      const std::uint32_t first = a.first_of_slot[from[m]] - 1, end = a.first_of_slot[to[m]];
-      spans.first[n] = within_turn(first, a.size);
-      spans.count[n] = std::min(end - first, a.size);
+    for (std::uint32_t seen = seen_edges(reach); seen != 0; seen &= seen - 1) {
+      const auto m = static_cast<std::uint32_t>(__builtin_ctz(seen));
+      append_span(number + m, max_slope[m], static_cast<std::uint32_t>(from[m]), static_cast<std::uint32_t>(to[m]), a, minima,
+                  spans, size);
     }
+    number += static_cast<std::uint32_t>(lane_count);
   }
+  return size;
 }
 
 std::size_t list_reaching(const EdgeSpans& s, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,
@@ -201,8 +216,7 @@ std::size_t list_reaching(const EdgeSpans& s, std::size_t edges, std::uint32_t w
     }
     std::uint32_t bits = 0;
     for (std::size_t m = 0; m < lane_count; ++m) bits |= reaching[m] << m;
-    for (; bits != 0; bits &= bits - 1)
-      numbers[count++] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(__builtin_ctz(bits));
+    for (; bits != 0; bits &= bits - 1) numbers[count++] = s.number[first + static_cast<std::uint32_t>(__builtin_ctz(bits))];
   }
   return count;
 }
@@ -211,11 +225,11 @@ FARLOD_LANES void mark_steeper(float slope, const float* least, std::size_t firs
   for (std::size_t k = first; k < end; ++k) wedges[k] |= static_cast<std::uint8_t>(slope > least[k]);
 }
 
-void mark_reached(const EdgeSpans& s, std::size_t edges, std::span<const float> least, std::uint8_t* wedges) {
+void mark_reached(const EdgeSpans& s, std::size_t edges, const float* minima, std::uint32_t turn, std::uint8_t* wedges) {
   for (std::size_t n = 0; n < edges; ++n) {
-    const std::size_t first = s.first[n], end = first + s.count[n], turn = least.size();
-    mark_steeper(s.max_slope[n], least.data(), first, std::min(end, turn), wedges);
-    if (end > turn) mark_steeper(s.max_slope[n], least.data(), 0, end - turn, wedges);
+    const std::uint32_t first = s.first[n], end = first + s.count[n];
+    mark_steeper(s.max_slope[n], minima, first, std::min(end, turn), wedges);
+    if (end > turn) mark_steeper(s.max_slope[n], minima, 0, end - turn, wedges);
   }
 }
 

@@ -34,10 +34,10 @@ struct EndBatch {
 struct LowerHorizons {
   float *rows, *minima;
 };
-/// For each edge the wedges that it reaches into for some receiver, so many from the first on, around the turn; and a slope that
-/// it is nowhere steeper than.
+/// For each of some edges its number, the wedges that it reaches into for some receiver, so many from the first on, around the
+/// turn; and a slope that it is nowhere steeper than.
 struct EdgeSpans {
-  std::uint32_t *first, *count;
+  std::uint32_t *number, *first, *count;
   float* max_slope;
 };
 struct WedgeEndKernels {
@@ -46,13 +46,16 @@ struct WedgeEndKernels {
   /// tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is above `lower`.
   void (*raise_tops)(std::span<const EndBatch> ends, const ReceiverPacket& receivers, const CenteredBox& box,
                      const AzimuthView& azimuths, const LowerHorizons& lower, float* tops);
-  /// Sixteen spans a batch; lanes without an edge mean nothing.
-  void (*find_spans)(const EdgeBatches& edges, const PacketBounds& bounds, const AzimuthView& azimuths, const EdgeSpans& spans);
-  /// Lists the edges that reach into a wedge and may be steeper than a slope: their numbers. Returns how many.
+  /// The spans of the edges that may be steeper than the least of all receivers (LowerHorizons::minima) in some wedge. They are
+  /// numbered from a number on, sixteen a batch. Returns how many there are.
+  std::size_t (*find_spans)(const EdgeBatches& edges, std::uint32_t number, const PacketBounds& bounds,
+                            const AzimuthView& azimuths, const float* minima, const EdgeSpans& spans);
+  /// Lists the edges that reach into a wedge and may be steeper than a slope: their numbers. Returns how many. Spans up to the
+  /// next multiple of 16 are read: they reach into no wedge.
   std::size_t (*list_reaching)(const EdgeSpans& spans, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,
                                std::uint32_t* numbers);
-  /// Marks the wedges into which edges reach that may be steeper there than `least`, a slope for each wedge.
-  void (*mark_reached)(const EdgeSpans& spans, std::size_t edges, std::span<const float> least, std::uint8_t* wedges);
+  /// Marks the wedges into which edges reach that may be steeper there than the least of all receivers.
+  void (*mark_reached)(const EdgeSpans& spans, std::size_t edges, const float* minima, std::uint32_t wedges, std::uint8_t* marks);
 };
 
 // --- The sky of wedges

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -200,6 +201,44 @@ TEST_P(PacketEnvelopes, AreTheSumsOfTheirTerms) {
     EXPECT_NEAR(high, bounds.high[l], float_error) << l;
     EXPECT_NEAR(exact, exact_share(l, 0.0), float_error) << l;
   }
+}
+
+/// The slope at which a receiver sees an edge at an azimuth, if it does.
+std::optional<double> slope_of(const HorizonEdge& e, const Point3d& eye, const Point2d& d) {
+  const Point3d p = Point3d{e.a.x, e.a.y, e.a.z} - eye, q = Point3d{e.b.x, e.b.y, e.b.z} - eye;
+  const double cross = p.x * q.y - p.y * q.x, u = (p.x * d.y - p.y * d.x) / cross, v = (d.x * q.y - d.y * q.x) / cross;
+  return u >= 0.0 && v >= 0.0 ? std::optional(p.z * v + q.z * u) : std::nullopt;
+}
+
+TEST_P(PacketEnvelopes, ListTheEdgesThatRiseInAWedge) {
+  EdgesInWedges in_wedges(azimuths_);
+  in_wedges.begin(list_, bounds_of(receivers_), envelope_.least_horizons());
+  std::vector<std::uint8_t> marks(envelope_.size(), 0);
+  in_wedges.mark_reached(marks);
+  std::size_t listed = 0;
+  for (std::size_t k = 0; k < envelope_.size(); ++k) {
+    const EdgesInWedges::InWedge& edges = in_wedges.reaching(k);
+    EXPECT_EQ(marks[k] != 0, edges.size > 0) << k;
+    const auto is_listed = [&](const HorizonEdge& e) {
+      for (std::size_t n = 0; n < edges.size; ++n)
+        if (edges.edges[n / 16].ax[n % 16] == e.a.x && edges.edges[n / 16].by[n % 16] == e.b.y) return true;
+      return false;
+    };
+    for (std::size_t n = 0; n < edges_.size(); ++n) {
+      double highest = 0.0;
+      for (std::size_t l = 0; l < receivers_.count; ++l)
+        for (const double share : {0.01, 0.25, 0.5, 0.75, 0.99}) {
+          const Wedge& w = envelope_.wedge(k);
+          const Point2d d{w.from.x - share * w.tangent * w.from.y, w.from.y + share * w.tangent * w.from.x};
+          const auto slope = slope_of(edges_.at(n), {receivers_.x[l], receivers_.y[l], receivers_.z[l]}, d);
+          highest = std::max(highest, slope.value_or(0.0) / std::sqrt(1.0 + share * share * w.tangent * w.tangent));
+        }
+      if (highest <= 1.0001 * static_cast<double>(envelope_.least_horizons()[k])) continue;
+      EXPECT_TRUE(is_listed(edges_.at(n))) << "edge " << n << ", wedge " << k;
+      ++listed;
+    }
+  }
+  EXPECT_GT(listed, envelope_.size());
 }
 
 const std::vector<Point3f> looking_up{{0, 0, 1}}, looking_almost_up{{2.4e-4F, 0, 1}},
