@@ -45,7 +45,8 @@ PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight
       lower_(azimuths.size()),
       borders_(azimuths.size()),
       minima_(azimuths.size() * static_cast<std::size_t>(std::bit_width(azimuths.size()))),
-      others_(azimuths.size()) {
+      others_(azimuths.size()),
+      doubtful_(azimuths.size() * packet_lanes) {
   FARLOD_EXPECTS(azimuths.size() >= least_azimuths);
   for (Rows* rows : {&terms_.low, &terms_.high, &terms_.gaps}) rows->resize(azimuths.size());
   const auto direction = [&](std::size_t k) { return Point2d{azimuths.cosine()[k], azimuths.sine()[k]}; };
@@ -82,12 +83,12 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
   list_doubtful_wedges(nullptr);
   Bounds bounds;
   for (std::size_t l = 0; l < r.count; ++l) {
-    const Eye eye{occluders, hiding, r, l};
+    const Eye eye{occluders, hiding, r, l, {r.x[l], r.y[l], r.z[l]}};
     const bool looks_down = r.normal_z[l] < 0.0F;
     double low = looks_down ? 0.0 : simple.low[l], high = looks_down ? 0.0 : simple.high[l];
     find_doubts(eye);
     resolve_doubts(eye, high - low, wanted * turn_rad);
-    for (std::size_t n = 0; n < doubtful_[l].size(); ++n) {
+    for (std::size_t n = 0; n < doubtful(l).size(); ++n) {
       const Doubt d = doubt(l, n);
       low += static_cast<double>(d.pairs.low[d.n]);
       high += static_cast<double>(d.pairs.high[d.n]);
@@ -107,7 +108,7 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   list_doubtful_wedges(gaps.reached.data());
   const Hiding nothing{none_, none_};
   Sums sums{};
-  for (std::size_t l = 0; l < r.count; ++l) bound_gaps({occluders, nothing, r, l}, gaps.borders);
+  for (std::size_t l = 0; l < r.count; ++l) bound_gaps({occluders, nothing, r, l, {r.x[l], r.y[l], r.z[l]}}, gaps.borders);
   for (std::size_t k = 0; k < wedges_.size(); ++k) {
     if (gaps.reached[k] == 0) continue;
     for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
@@ -128,14 +129,16 @@ SimpleSums PacketEnvelope::sum_simple(const Occluders& occluders, const Hiding& 
 
 void PacketEnvelope::list_doubtful_wedges(const std::uint8_t* asked) {
   const ReceiverPacket& r = *receivers_;
-  for (std::vector<std::uint32_t>& wedges : doubtful_) wedges.clear();
+  doubtful_count_.fill(0);
   std::uint32_t look_down = 0;
   for (std::size_t l = 0; l < r.count; ++l) look_down |= r.normal_z[l] < 0.0F ? 1U << l : 0U;
   const std::uint32_t all = (1U << r.count) - 1U;
   for (std::uint32_t k = 0; k < wedges_.size(); ++k) {
     if (asked != nullptr && asked[k] == 0) continue;
-    for (std::uint32_t bits = (others_[k] | look_down) & all; bits != 0; bits &= bits - 1)
-      doubtful_[static_cast<std::size_t>(std::countr_zero(bits))].push_back(k);
+    for (std::uint32_t bits = (others_[k] | look_down) & all; bits != 0; bits &= bits - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+      doubtful_[l * wedges_.size() + doubtful_count_[l]++] = k;
+    }
   }
 }
 
@@ -144,15 +147,15 @@ void PacketEnvelope::list_doubtful_wedges(const std::uint8_t* asked) {
 
 template <class Answer>
 void PacketEnvelope::visit_pairs(const Eye& eye, const Answer& answer) {
-  const std::vector<std::uint32_t>& wedges = doubtful_[eye.lane];
-  WedgePairs pairs;
+  const std::span<const std::uint32_t> wedges = doubtful(eye.lane);
+  WedgePairs pairs{};
   pairs.normal_x = eye.receivers.normal_x[eye.lane];
   pairs.normal_y = eye.receivers.normal_y[eye.lane];
   pairs.normal_z = eye.receivers.normal_z[eye.lane];
   for (std::size_t first = 0; first < wedges.size(); first += packet_lanes) {
     const std::size_t count = std::min(packet_lanes, wedges.size() - first);
-    for (std::size_t n = 0; n < packet_lanes; ++n) put_pair(eye, wedges[first + std::min(n, count - 1)], n, pairs);
-    answer(std::span(wedges).subspan(first, count), pairs);
+    for (std::size_t n = 0; n < count; ++n) put_pair(eye, wedges[first + n], n, pairs);
+    answer(wedges.subspan(first, count), pairs);
   }
 }
 
@@ -203,17 +206,15 @@ void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, Wedg
 }
 
 void PacketEnvelope::put_edge(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const {
-  const ReceiverPacket& r = eye.receivers;
-  const std::size_t l = eye.lane;
   if (number < 0) return put_plane(eye, number, k, n, edges);
   const auto end = 2 * static_cast<std::size_t>(number);
   const Point3f &a = eye.occluders.ends_of_numbers.end(end).p, &b = eye.occluders.ends_of_numbers.end(end + 1).p;
-  edges.px[n] = a.x - r.x[l];
-  edges.py[n] = a.y - r.y[l];
-  edges.pz[n] = a.z - r.z[l];
-  edges.qx[n] = b.x - r.x[l];
-  edges.qy[n] = b.y - r.y[l];
-  edges.qz[n] = b.z - r.z[l];
+  edges.px[n] = a.x - eye.p.x;
+  edges.py[n] = a.y - eye.p.y;
+  edges.pz[n] = a.z - eye.p.z;
+  edges.qx[n] = b.x - eye.p.x;
+  edges.qy[n] = b.y - eye.p.y;
+  edges.qz[n] = b.z - eye.p.z;
 }
 
 /// Level ground or the receiver's own plane, over all of the wedge.
@@ -238,7 +239,7 @@ void PacketEnvelope::put_plane(const Eye& eye, std::int32_t number, std::size_t 
 // ----------------------------------------------------------------------------
 
 void PacketEnvelope::resolve_doubts(const Eye& eye, double width, double wanted) {
-  const std::size_t l = eye.lane, count = doubtful_[l].size();
+  const std::size_t l = eye.lane, count = doubtful(l).size();
   for (std::size_t n = 0; n < count; ++n) {
     if (doubt(l, n).is_unknown()) resolve(eye, doubt(l, n));
     width += static_cast<double>(doubt(l, n).width());
@@ -353,7 +354,7 @@ double PacketEnvelope::term_of(double sky, std::size_t k, const ReceiverPacket& 
 }
 
 void PacketEnvelope::keep_terms_of(std::size_t l) {
-  for (std::size_t n = 0; n < doubtful_[l].size(); ++n) {
+  for (std::size_t n = 0; n < doubtful(l).size(); ++n) {
     const Doubt d = doubt(l, n);
     terms_.low[d.wedge][l] = d.pairs.low[d.n];
     terms_.high[d.wedge][l] = d.pairs.high[d.n];

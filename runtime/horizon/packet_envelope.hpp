@@ -96,6 +96,7 @@ class PacketEnvelope {
     const Hiding& hiding;
     const ReceiverPacket& receivers;
     std::size_t lane;
+    Point3f p;
   };
 
   SimpleSums sum_simple(const Occluders& occluders, const Hiding& hiding);
@@ -112,9 +113,12 @@ class PacketEnvelope {
   void put_plane(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const;
   /// A bit for each of these wedges that only all edges tell of.
   [[nodiscard]] std::uint32_t beyond_pairs(const Eye& eye, std::span<const std::uint32_t> wedges) const;
+  [[nodiscard]] std::span<const std::uint32_t> doubtful(std::size_t lane) const {
+    return std::span(doubtful_).subspan(lane * wedges_.size(), doubtful_count_[lane]);
+  }
   /// The doubts of a receiver, after find_doubts().
   [[nodiscard]] Doubt doubt(std::size_t lane, std::size_t n) {
-    return {doubtful_[lane][n], pairs_[n / packet_lanes], n % packet_lanes};
+    return {doubtful(lane)[n], pairs_[n / packet_lanes], n % packet_lanes};
   }
   void resolve_doubts(const Eye& eye, double width, double wanted);
   void resolve(const Eye& eye, const Doubt& doubt);
@@ -150,9 +154,10 @@ class PacketEnvelope {
   std::vector<std::int32_t> own_numbers_;
   Rows lower_, borders_;
   std::vector<float> minima_;
-  std::vector<std::uint16_t> others_;  ///< a bit for each receiver for whom a wedge is not simple
-  std::array<std::vector<std::uint32_t>, ReceiverPacket::lanes> doubtful_;  ///< these wedges
-  std::vector<PairsAnswer> pairs_;                                          ///< of the doubts of one receiver
+  std::vector<std::uint16_t> others_;    ///< a bit for each receiver for whom a wedge is not simple
+  std::vector<std::uint32_t> doubtful_;  ///< these wedges, receiver by receiver
+  std::array<std::size_t, ReceiverPacket::lanes> doubtful_count_{};
+  std::vector<PairsAnswer> pairs_;  ///< of the doubts of one receiver
   struct WidthOfDoubt {
     float width;
     std::size_t n;
