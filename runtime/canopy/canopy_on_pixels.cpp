@@ -122,12 +122,22 @@ void CanopyOnPixels::make_ready(Row& row, CanopyRow& marched, std::span<const Sk
   row.sky.resize(profiles.front().sky.empty() ? 0 : azimuths);
   row.behind.resize(answers.behind_of_azimuths.empty() ? 0 : azimuths);
   row.hidden.resize(answers.hidden_of_azimuths.empty() ? 0 : azimuths);
-  for (const OnPixel& r : row.receivers) {
-    const auto pixel = static_cast<std::size_t>(r.place.column - marched.column);
-    const SkyProfile& profile = profiles[r.packet];
-    for (std::size_t k = 0; k < azimuths; ++k) row.sky_from[k][pixel] = profile.sky_from[k][r.lane];
-    for (std::size_t k = 0; k < row.sky.size(); ++k) row.sky[k][pixel] = profile.sky[k][r.lane];
-  }
+  // Azimuth by azimuth: what neighbors have lies in the same lines of the processor's cache
+  const auto copy = [&](SkyProfile::Rows SkyProfile::*of_profile, SkyProfile::Rows& rows) {
+    struct Lane {
+      const PacketHorizon::Row* from;
+      std::size_t lane, pixel;
+    };
+    std::array<Lane, packet_lanes> lanes;
+    std::size_t count = 0;
+    for (const OnPixel& r : row.receivers)
+      lanes[count++] = {(profiles[r.packet].*of_profile).data(), r.lane,
+                        static_cast<std::size_t>(r.place.column - marched.column)};
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (std::size_t n = 0; n < count; ++n) rows[k][lanes[n].pixel] = lanes[n].from[k][lanes[n].lane];
+  };
+  copy(&SkyProfile::sky_from, row.sky_from);
+  copy(&SkyProfile::sky, row.sky);
 }
 
 void CanopyOnPixels::march_rows(const Answers& answers) {
