@@ -262,7 +262,7 @@ void PacketEnvelope::resolve_doubts(const Eye& eye, double width, double wanted)
 void PacketEnvelope::resolve(const Eye& eye, const Doubt& d) {
   const std::size_t k = d.wedge, l = eye.lane;
   const EdgesInWedges::InWedge& edges = edges_.reaching(k);
-  find_edges_above(eye, d, edges);
+  find_edges_above(wedge_eye(eye, d, edges), edges);
   const float hidden = std::max(eye.hiding.most[k][l], minima_[k]), lid = d.pairs.lid[d.n];
   if (!d.is_unknown() && above_.empty() && eye.hiding.least[k][l] <= lid && hidden <= lid)
     d.pairs.low[d.n] = d.pairs.high[d.n];  // nothing else rises above both
@@ -270,27 +270,34 @@ void PacketEnvelope::resolve(const Eye& eye, const Doubt& d) {
     find_sky(eye, edges, d);
 }
 
-void PacketEnvelope::find_edges_above(const Eye& eye, const Doubt& d, const EdgesInWedges::InWedge& edges) {
-  const ReceiverPacket& r = eye.receivers;
+/// What a further edge must rise above: the envelope of a pair that is known, or else the edges that cross all of the wedge.
+WedgeEye PacketEnvelope::wedge_eye(const Eye& eye, const Doubt& d, const EdgesInWedges::InWedge& edges) const {
   const Wedge& w = wedges_[d.wedge];
   const PairsAnswer& p = d.pairs;
+  WedgeEye seen{
+      eye.p.x, eye.p.y, eye.p.z, static_cast<float>(w.from.x), static_cast<float>(w.from.y), static_cast<float>(w.tangent), 0.0F,
+      0.0F,    0.0F,    0.0F};
+  if (d.is_unknown()) {
+    float lid = eye.hiding.least[d.wedge][eye.lane];
+    for (const WedgeEdges& some : std::span(edges.edges).first((edges.size + packet_lanes - 1) / packet_lanes))
+      lid = std::max(lid, wedge_pair_kernels().find_lid(some, seen));
+    // Less, by more than what floats round
+    seen.first = seen.middle = seen.last = 0.9998F * lid - 2e-5F;
+    return seen;
+  }
+  seen.turn = p.turn[d.n];
+  seen.first = p.first[d.n];
   // Between edges that are apart anything may rise
-  const float middle = p.lid[d.n] > 0.0F ? std::min(p.before[d.n], p.after[d.n]) : -std::numeric_limits<float>::infinity();
-  const WedgeEye seen{r.x[eye.lane],
-                      r.y[eye.lane],
-                      r.z[eye.lane],
-                      static_cast<float>(w.from.x),
-                      static_cast<float>(w.from.y),
-                      static_cast<float>(w.tangent),
-                      p.turn[d.n],
-                      p.first[d.n],
-                      middle,
-                      p.last[d.n]};
+  seen.middle = p.lid[d.n] > 0.0F ? std::min(p.before[d.n], p.after[d.n]) : -std::numeric_limits<float>::infinity();
+  seen.last = p.last[d.n];
+  return seen;
+}
+
+void PacketEnvelope::find_edges_above(const WedgeEye& seen, const EdgesInWedges::InWedge& edges) {
   above_.clear();
   for (std::size_t n = 0; n < edges.size; n += packet_lanes) {
     const std::size_t count = std::min(packet_lanes, edges.size - n);
-    std::uint32_t bits = d.is_unknown() ? ~0U : wedge_pair_kernels().find_above(edges.edges[n / packet_lanes], seen);
-    bits &= (1U << count) - 1U;
+    std::uint32_t bits = wedge_pair_kernels().find_above(edges.edges[n / packet_lanes], seen) & ((1U << count) - 1U);
     for (; bits != 0; bits &= bits - 1)
       above_.push_back(static_cast<std::uint32_t>(n) + static_cast<std::uint32_t>(std::countr_zero(bits)));
   }

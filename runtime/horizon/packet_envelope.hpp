@@ -122,7 +122,8 @@ class PacketEnvelope {
   }
   void resolve_doubts(const Eye& eye, double width, double wanted);
   void resolve(const Eye& eye, const Doubt& doubt);
-  void find_edges_above(const Eye& eye, const Doubt& doubt, const EdgesInWedges::InWedge& edges);
+  [[nodiscard]] WedgeEye wedge_eye(const Eye& eye, const Doubt& doubt, const EdgesInWedges::InWedge& edges) const;
+  void find_edges_above(const WedgeEye& seen, const EdgesInWedges::InWedge& edges);
   void find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, const Doubt& doubt);
   void add_level(const Wedge& wedge, double first, double last);
   void add_edges(const Eye& eye, const EdgesInWedges::InWedge& edges, std::size_t k);

@@ -141,6 +141,9 @@ struct WedgePairKernels {
   void (*bound_gaps)(const WedgePairs& pairs, const float* borders, const WedgeShape& shape, WedgeWeight weight, float* most);
   /// The edges that may rise above an envelope through three heights: a bit for each.
   std::uint32_t (*find_above)(const WedgeEdges& edges, const WedgeEye& eye);
+  /// A height below which one of the edges hides all of the wedge, by its ends alone; 0 if none does. `turn` and heights are not
+  /// read.
+  float (*find_lid)(const WedgeEdges& edges, const WedgeEye& eye);
 };
 
 }  // namespace farlod

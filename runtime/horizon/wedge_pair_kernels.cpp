@@ -178,33 +178,52 @@ void bound_gaps(const WedgePairs& pairs, const float* borders, const WedgeShape&
 // --- Further edges
 // ----------------------------------------------------------------------------------------------------------------
 
+/// Edges as a receiver sees them in a wedge; how far their ends are to the left of the last azimuth; and where their lines tell
+/// something: not behind the receiver, close to it, or in line with it.
+struct FurtherEdges {
+  EdgeInWedge e;
+  Floats beyond_p, beyond_q, clear;
+  PictureLine line;
+};
+FARLOD_LANES FurtherEdges further_edges(const WedgeEdges& w, const WedgeEye& eye) {
+  const Floats ax = load(w.ax) - eye.x, ay = load(w.ay) - eye.y, bx = load(w.bx) - eye.x, by = load(w.by) - eye.y;
+  const EdgeInWedge e{ax * eye.cosine + ay * eye.sine, ay * eye.cosine - ax * eye.sine, load(w.az) - eye.z,
+                      bx * eye.cosine + by * eye.sine, by * eye.cosine - bx * eye.sine, load(w.bz) - eye.z};
+  // Coordinates are rounded by 8 µm: slopes by a share of 6e-5
+  constexpr float near_m = 0.25F;
+  const Floats cross = abs(e.xp * e.sq - e.xq * e.sp);
+  return {e, e.sp - eye.tangent * e.xp, e.sq - eye.tangent * e.xq,
+          min(min(e.xp, e.xq) - near_m, cross - 1e-4F * (abs(e.xp) + abs(e.xq))), line_of(e.xp, e.sp, e.zp, e.xq, e.sq, e.zq)};
+}
+
+constexpr float beside_m = 1e-3F;
+
 /// Not those that miss the wedge, nor those whose line lies below all three heights.
-std::uint32_t find_above(const WedgeEdges& e, const WedgeEye& eye) {
-  const Floats ax = load(e.ax) - eye.x, ay = load(e.ay) - eye.y, az = load(e.az) - eye.z;
-  const Floats bx = load(e.bx) - eye.x, by = load(e.by) - eye.y, bz = load(e.bz) - eye.z;
-  const Floats along_a = ax * eye.cosine + ay * eye.sine, along_b = bx * eye.cosine + by * eye.sine;
-  const Floats left_a = ay * eye.cosine - ax * eye.sine, left_b = by * eye.cosine - bx * eye.sine;
-  const Floats beyond_a = left_a - eye.tangent * along_a, beyond_b = left_b - eye.tangent * along_b;
-  constexpr float margin = 1e-3F;
-  const Floats misses = max(min(-left_a, -left_b), min(beyond_a, beyond_b)) - margin;
-  const PictureLine line = line_of(along_a, left_a, az, along_b, left_b, bz);
-  const Floats rises = max(line.level - eye.first,
-                           max(line.level + line.rise * eye.turn - eye.middle, line.level + line.rise * eye.tangent - eye.last));
+std::uint32_t find_above(const WedgeEdges& edges, const WedgeEye& eye) {
+  const FurtherEdges f = further_edges(edges, eye);
+  const Floats misses = max(min(-f.e.sp, -f.e.sq), min(f.beyond_p, f.beyond_q)) - beside_m;
+  const Floats rises = max(f.line.level - eye.first, max(f.line.level + f.line.rise * eye.turn - eye.middle,
+                                                         f.line.level + f.line.rise * eye.tangent - eye.last));
   constexpr float below = 1e-5F;
-  // Behind the receiver, or in line with it, lines say nothing
-  const Floats cross = along_a * left_b - along_b * left_a;
-  const Floats is_clear = min(min(along_a, along_b) - 1e-3F, abs(cross) - 1e-4F * (abs(along_a) + abs(along_b)));
   // NaN is kept
-  const Floats hidden = min(is_clear, -rises + below * (1.0F + eye.middle));
+  const Floats hidden = min(f.clear, -rises + below * (1.0F + eye.middle));
   const Mask out = max(misses, hidden) > 0.0F;
   return bits_of(choose(out, broadcast(0.0F), broadcast(1.0F)) > 0.0F);
+}
+
+/// The highest of the lowest heights of those that cross the wedge from border to border.
+float find_lid(const WedgeEdges& edges, const WedgeEye& eye) {
+  const FurtherEdges f = further_edges(edges, eye);
+  const Floats crosses = min(max(-f.e.sp, -f.e.sq), max(f.beyond_p, f.beyond_q)) - beside_m;
+  const Floats lowest = min(f.line.level, f.line.level + f.line.rise * eye.tangent);
+  return max_lane(choose(min(crosses, f.clear) > 0.0F, lowest, broadcast(0.0F)));
 }
 
 }  // namespace
 
 namespace FARLOD_TARGET {
 extern const WedgePairKernels wedge_pair_kernels;
-constexpr WedgePairKernels wedge_pair_kernels{bound_pairs, bound_gaps, find_above};
+constexpr WedgePairKernels wedge_pair_kernels{bound_pairs, bound_gaps, find_above, find_lid};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

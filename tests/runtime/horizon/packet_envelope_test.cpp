@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "horizon/kernels.hpp"
 #include "horizon/wedge_envelope.hpp"
 #include "horizon/wedge_kernels.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
@@ -241,6 +242,36 @@ TEST_P(PacketEnvelopes, ListTheEdgesThatRiseInAWedge) {
   EXPECT_GT(listed, envelope_.size());
 }
 
+TEST_P(PacketEnvelopes, HaveALidThatTheEdgesHide) {
+  EdgesInWedges in_wedges(azimuths_);
+  in_wedges.begin(list_, bounds_of(receivers_), envelope_.least_horizons());
+  std::size_t lids = 0;
+  for (std::size_t k = 0; k < envelope_.size(); ++k) {
+    const EdgesInWedges::InWedge& edges = in_wedges.reaching(k);
+    const Wedge& w = envelope_.wedge(k);
+    for (std::size_t l = 0; l < receivers_.count; ++l) {
+      const WedgeEye eye{receivers_.x[l],
+                         receivers_.y[l],
+                         receivers_.z[l],
+                         static_cast<float>(w.from.x),
+                         static_cast<float>(w.from.y),
+                         static_cast<float>(w.tangent),
+                         0.0F,
+                         0.0F,
+                         0.0F,
+                         0.0F};
+      float lid = 0.0F;
+      for (const WedgeEdges& some : std::span(edges.edges).first((edges.size + 15) / 16))
+        lid = std::max(lid, wedge_pair_kernels().find_lid(some, eye));
+      lids += lid > 0.0F ? 1U : 0U;
+      // The sky above all edges is that above these and a straight edge that is nowhere higher than the lid
+      const double slope = 0.9999 * static_cast<double>(lid) / std::sqrt(1.0 + w.tangent * w.tangent);
+      EXPECT_NEAR(exact_sky(k, l, slope), exact_sky(k, l, 0.0), 1e-12) << l << ", wedge " << k;
+    }
+  }
+  EXPECT_GE(lids, envelope_.size());
+}
+
 const std::vector<Point3f> looking_up{{0, 0, 1}}, looking_almost_up{{2.4e-4F, 0, 1}},
     looking_anywhere{{0, 0, 1}, {0.6F, 0, 0.8F}, {0, -0.8F, 0.6F}, {-0.8F, 0.6F, 0}, {0, 1, 0}},
     looking_down{{0.8F, 0, -0.6F}, {0, 0.6F, -0.8F}};
@@ -264,6 +295,7 @@ struct Made {
   SimpleSums sums;
   PairsAnswer pairs;
   alignas(64) std::array<float, 16> most;
+  float lid;
 };
 
 class WedgeTargets : public PacketEnvelopes {
@@ -279,7 +311,8 @@ class WedgeTargets : public PacketEnvelopes {
            std::vector<std::uint16_t>(count),
            {},
            {},
-           {}};
+           {},
+           0.0F};
     const WedgeShape w{0.1F, std::cos(0.1F), std::sin(0.1F), std::tan(0.1F), 1.01F};
     target.wedge_sky->raise_to_planes(horizon_.slopes(), horizon_.numbers(), receivers_, azimuths_.view(), m.raised.data(),
                                       m.numbers.data());
@@ -296,7 +329,18 @@ class WedgeTargets : public PacketEnvelopes {
     alignas(64) std::array<float, 16> borders;
     borders.fill(0.9F);
     target.wedge_pair->bound_gaps(pairs(), borders.data(), w, WedgeWeight::cosine, m.most.data());
+    m.lid = lid_of(target);
     return m;
+  }
+  /// Over a wedge in which an edge stands across.
+  [[nodiscard]] static float lid_of(const KernelTarget& target) {
+    WedgeEdges edges{};
+    for (std::size_t n = 0; n < 16; ++n) {
+      edges.ax[n] = edges.bx[n] = 20.0F + static_cast<float>(n);
+      edges.ay[n] = -5.0F, edges.by[n] = 9.0F;
+      edges.az[n] = 3.0F, edges.bz[n] = 7.0F + static_cast<float>(n);
+    }
+    return target.wedge_pair->find_lid(edges, {0.3F, 0.1F, 1.5F, 1.0F, 0.0F, 0.1F, 0.0F, 0.0F, 0.0F, 0.0F});
   }
   [[nodiscard]] WedgePairs pairs() const {
     WedgePairs p{};
@@ -318,6 +362,7 @@ TEST_P(WedgeTargets, GiveTheSameBits) {
   const Made baseline = made_by(runnable_kernels().back());
   EXPECT_GT(*std::max_element(baseline.tops.begin(), baseline.tops.end()), 0.0F);
   EXPECT_GT(*std::max_element(baseline.most.begin(), baseline.most.end()), 0.0F);
+  EXPECT_GT(baseline.lid, 0.0F);
   for (const KernelTarget& target : runnable_kernels()) {
     const Made m = made_by(target);
     EXPECT_EQ(m.lower, baseline.lower) << target.name;
@@ -326,6 +371,7 @@ TEST_P(WedgeTargets, GiveTheSameBits) {
     EXPECT_EQ(m.gaps, baseline.gaps) << target.name;
     EXPECT_EQ(m.others, baseline.others) << target.name;
     EXPECT_EQ(m.most, baseline.most) << target.name;
+    EXPECT_EQ(m.lid, baseline.lid) << target.name;
     EXPECT_EQ(std::memcmp(m.sums.low, baseline.sums.low, sizeof m.sums.low), 0) << target.name;
     EXPECT_EQ(std::memcmp(m.sums.high, baseline.sums.high, sizeof m.sums.high), 0) << target.name;
     EXPECT_EQ(std::memcmp(&m.pairs, &baseline.pairs, sizeof m.pairs), 0) << target.name;
