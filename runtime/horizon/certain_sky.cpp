@@ -15,7 +15,7 @@ namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
 
-/// A horizon with borders of the far city. The second one is room for it.
+/// A horizon with borders of the far city, too. `both` is room for it.
 const PacketHorizon& with_far(const PacketHorizon& near, const SilhouetteEdges& far, const ReceiverPacket& receivers,
                               PacketHorizon& both) {
   if (far.empty()) return near;

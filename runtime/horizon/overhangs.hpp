@@ -85,6 +85,7 @@ class NearHorizons {
   explicit NearHorizons(const AzimuthSampling& azimuths)
       : grounded_(azimuths, PacketHorizon::Edges::tracked), upper_(azimuths, PacketHorizon::Edges::tracked), lower_(azimuths) {}
 
+  /// Draws the borders above a grounded horizon, which is copied.
   void draw(const PacketHorizon& grounded, const OverhangEdges& near, const ReceiverPacket& receivers);
 
   [[nodiscard]] const PacketHorizon& grounded() const { return grounded_; }

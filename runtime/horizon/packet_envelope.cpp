@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "base/expects.hpp"
 #include "horizon/kernels.hpp"
@@ -29,7 +28,6 @@ Wedge wedge_between(Point2d d, Point2d e) {
   return {(1.0 / std::sqrt(d.x * d.x + d.y * d.y)) * d, tangent};
 }
 
-Point3d place_of(const ReceiverPacket& r, std::size_t lane) { return {r.x[lane], r.y[lane], r.z[lane]}; }
 Point3d normal_of(const ReceiverPacket& r, std::size_t lane) { return {r.normal_x[lane], r.normal_y[lane], r.normal_z[lane]}; }
 
 }  // namespace
@@ -76,6 +74,11 @@ void PacketEnvelope::raise_to_ends(std::span<const EndBatch> ends, std::span<Row
                                  tops.front().data());
 }
 
+PacketEnvelope::Eye PacketEnvelope::eye_of(const Occluders& occluders, const Hiding& hiding, std::size_t l) const {
+  const ReceiverPacket& r = *receivers_;
+  return {occluders, hiding, l, {r.x[l], r.y[l], r.z[l]}, normal_of(r, l)};
+}
+
 PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, double wanted) {
   const ReceiverPacket& r = *receivers_;
   edges_.begin(occluders.edges, bounds_of(r), minima_.data());
@@ -83,8 +86,8 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
   list_doubtful_wedges(nullptr);
   Bounds bounds;
   for (std::size_t l = 0; l < r.count; ++l) {
-    const Eye eye{occluders, hiding, r, l, {r.x[l], r.y[l], r.z[l]}};
-    const bool looks_down = r.normal_z[l] < 0.0F;
+    const Eye eye = eye_of(occluders, hiding, l);
+    const bool looks_down = eye.normal.z < 0.0;
     double low = looks_down ? 0.0 : simple.low[l], high = looks_down ? 0.0 : simple.high[l];
     find_doubts(eye);
     resolve_doubts(eye, high - low, wanted * turn_rad);
@@ -101,14 +104,13 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
 }
 
 PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, const Gaps& gaps) {
-  const ReceiverPacket& r = *receivers_;
-  wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, r,
+  wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, *receivers_,
                                        azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(),
                                        terms_.gaps.front().data());
   list_doubtful_wedges(gaps.reached.data());
   const Hiding nothing{none_, none_};
   Sums sums{};
-  for (std::size_t l = 0; l < r.count; ++l) bound_gaps({occluders, nothing, r, l, {r.x[l], r.y[l], r.z[l]}}, gaps.borders);
+  for (std::size_t l = 0; l < receivers_->count; ++l) bound_gaps(eye_of(occluders, nothing, l), gaps.borders);
   for (std::size_t k = 0; k < wedges_.size(); ++k) {
     if (gaps.reached[k] == 0) continue;
     for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
@@ -149,9 +151,9 @@ template <class Answer>
 void PacketEnvelope::visit_pairs(const Eye& eye, const Answer& answer) {
   const std::span<const std::uint32_t> wedges = doubtful(eye.lane);
   WedgePairs pairs{};
-  pairs.normal_x = eye.receivers.normal_x[eye.lane];
-  pairs.normal_y = eye.receivers.normal_y[eye.lane];
-  pairs.normal_z = eye.receivers.normal_z[eye.lane];
+  pairs.normal_x = receivers_->normal_x[eye.lane];
+  pairs.normal_y = receivers_->normal_y[eye.lane];
+  pairs.normal_z = receivers_->normal_z[eye.lane];
   for (std::size_t first = 0; first < wedges.size(); first += packet_lanes) {
     const std::size_t count = std::min(packet_lanes, wedges.size() - first);
     for (std::size_t n = 0; n < count; ++n) put_pair(eye, wedges[first + n], n, pairs);
@@ -171,7 +173,7 @@ void PacketEnvelope::find_doubts(const Eye& eye) {
 /// Where the back of a wall begins, and for who looks down.
 std::uint32_t PacketEnvelope::beyond_pairs(const Eye& eye, std::span<const std::uint32_t> wedges) const {
   if (wedge_weight_ == WedgeWeight::cosine_up) return 0;
-  if (eye.receivers.normal_z[eye.lane] < 0.0F) return ~0U;
+  if (eye.normal.z < 0.0) return ~0U;
   std::uint32_t bits = 0;
   for (std::size_t n = 0; n < wedges.size(); ++n) {
     const std::size_t k = wedges[n], l = eye.lane;
@@ -219,7 +221,7 @@ void PacketEnvelope::put_edge(const Eye& eye, std::int32_t number, std::size_t k
 
 /// Level ground or the receiver's own plane, over all of the wedge.
 void PacketEnvelope::put_plane(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const {
-  const Point3d normal = normal_of(eye.receivers, eye.lane);
+  const Point3d& normal = eye.normal;
   const Wedge& w = wedges_[k];
   const auto place = [&](double tau) {
     const double x = w.from.x - tau * w.from.y, y = w.from.y + tau * w.from.x;
@@ -275,8 +277,7 @@ WedgeEye PacketEnvelope::wedge_eye(const Eye& eye, const Doubt& d, const EdgesIn
   const Wedge& w = wedges_[d.wedge];
   const PairsAnswer& p = d.pairs;
   WedgeEye seen{
-      eye.p.x, eye.p.y, eye.p.z, static_cast<float>(w.from.x), static_cast<float>(w.from.y), static_cast<float>(w.tangent), 0.0F,
-      0.0F,    0.0F,    0.0F};
+      eye.p.x, eye.p.y, eye.p.z, static_cast<float>(w.from.x), static_cast<float>(w.from.y), static_cast<float>(w.tangent)};
   if (d.is_unknown()) {
     float lid = eye.hiding.least[d.wedge][eye.lane];
     for (const WedgeEdges& some : std::span(edges.edges).first((edges.size + packet_lanes - 1) / packet_lanes))
@@ -306,7 +307,7 @@ void PacketEnvelope::find_edges_above(const WedgeEye& seen, const EdgesInWedges:
 void PacketEnvelope::find_sky(const Eye& eye, const EdgesInWedges::InWedge& edges, const Doubt& d) {
   const std::size_t k = d.wedge, l = eye.lane;
   const double widest = std::sqrt(1.0 + wedges_[k].tangent * wedges_[k].tangent);
-  envelope_.begin(wedges_[k], normal_of(eye.receivers, l), weight_);
+  envelope_.begin(wedges_[k], eye.normal, weight_);
   // Nowhere higher than `least`
   const double least = eye.hiding.least[k][l];
   if (least > 0.0) add_level(wedges_[k], least, least / widest);
@@ -321,8 +322,8 @@ void PacketEnvelope::find_sky(const Eye& eye, const EdgesInWedges::InWedge& edge
     add_level(wedges_[k], hidden, hidden);  // nowhere lower than `hidden`
     low = envelope_.sky().sky;
   }
-  d.pairs.low[d.n] = static_cast<float>(term_of(low, k, eye.receivers, l));
-  d.pairs.high[d.n] = static_cast<float>(term_of(known.sky, k, eye.receivers, l));
+  d.pairs.low[d.n] = static_cast<float>(term_of(low, k, *receivers_, l));
+  d.pairs.high[d.n] = static_cast<float>(term_of(known.sky, k, *receivers_, l));
 }
 
 /// Adds a straight edge across the wedge, whose ends have these slopes.
@@ -332,7 +333,7 @@ void PacketEnvelope::add_level(const Wedge& w, double first, double last) {
 }
 
 void PacketEnvelope::add_edges(const Eye& eye, const EdgesInWedges::InWedge& edges, std::size_t k) {
-  const Point3d p = place_of(eye.receivers, eye.lane);
+  const Point3d p{eye.p.x, eye.p.y, eye.p.z};
   const auto add_number = [&](std::int32_t number) {
     if (number < 0) return;
     const auto end = 2 * static_cast<std::size_t>(number);

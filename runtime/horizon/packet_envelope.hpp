@@ -90,14 +90,19 @@ class PacketEnvelope {
     [[nodiscard]] bool is_unknown() const { return has_bit(pairs.unknown, n); }
     [[nodiscard]] float width() const { return pairs.high[n] - pairs.low[n]; }
   };
+  struct WidthOfDoubt {
+    float width;
+    std::size_t n;  ///< the doubt
+  };
   /// One receiver of the packet.
   struct Eye {
     const Occluders& occluders;
     const Hiding& hiding;
-    const ReceiverPacket& receivers;
     std::size_t lane;
     Point3f p;
+    Point3d normal;
   };
+  [[nodiscard]] Eye eye_of(const Occluders& occluders, const Hiding& hiding, std::size_t lane) const;
 
   SimpleSums sum_simple(const Occluders& occluders, const Hiding& hiding);
   /// Those with bits, and all that are asked for who looks down.
@@ -158,11 +163,7 @@ class PacketEnvelope {
   std::vector<std::uint16_t> others_;    ///< a bit for each receiver for whom a wedge is not simple
   std::vector<std::uint32_t> doubtful_;  ///< these wedges, receiver by receiver
   std::array<std::size_t, ReceiverPacket::lanes> doubtful_count_{};
-  std::vector<PairsAnswer> pairs_;  ///< of the doubts of one receiver
-  struct WidthOfDoubt {
-    float width;
-    std::size_t n;
-  };
+  std::vector<PairsAnswer> pairs_;    ///< of the doubts of one receiver
   std::vector<WidthOfDoubt> widest_;  ///< a heap
   std::vector<std::uint32_t> above_;
 };

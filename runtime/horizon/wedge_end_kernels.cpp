@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "horizon/edge_culling.hpp"
 #include "horizon/lanes.hpp"

@@ -41,7 +41,7 @@ struct EdgeSpans {
   float* max_slope;
 };
 struct WedgeEndKernels {
-  /// The lower horizons of horizons.
+  /// Finds them from the horizons at the azimuths.
   void (*find_lower)(const float* slopes, std::size_t azimuths, const LowerHorizons& lower);
   /// tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is above `lower`.
   void (*raise_tops)(std::span<const EndBatch> ends, const ReceiverPacket& receivers, const CenteredBox& box,
@@ -113,7 +113,8 @@ struct WedgeEdges {
 };
 /// A receiver's wedge, and heights in its picture plane at τ = 0, `turn` and the tangent of its angle.
 struct WedgeEye {
-  float x, y, z, cosine, sine, tangent, turn, first, middle, last;
+  float x, y, z, cosine, sine, tangent;
+  float turn = 0.0F, first = 0.0F, middle = 0.0F, last = 0.0F;
 };
 
 struct WedgeSkyKernels {

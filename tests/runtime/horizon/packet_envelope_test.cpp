@@ -255,11 +255,7 @@ TEST_P(PacketEnvelopes, HaveALidThatTheEdgesHide) {
                          receivers_.z[l],
                          static_cast<float>(w.from.x),
                          static_cast<float>(w.from.y),
-                         static_cast<float>(w.tangent),
-                         0.0F,
-                         0.0F,
-                         0.0F,
-                         0.0F};
+                         static_cast<float>(w.tangent)};
       float lid = 0.0F;
       for (const WedgeEdges& some : std::span(edges.edges).first((edges.size + 15) / 16))
         lid = std::max(lid, wedge_pair_kernels().find_lid(some, eye));
@@ -340,7 +336,7 @@ class WedgeTargets : public PacketEnvelopes {
       edges.ay[n] = -5.0F, edges.by[n] = 9.0F;
       edges.az[n] = 3.0F, edges.bz[n] = 7.0F + static_cast<float>(n);
     }
-    return target.wedge_pair->find_lid(edges, {0.3F, 0.1F, 1.5F, 1.0F, 0.0F, 0.1F, 0.0F, 0.0F, 0.0F, 0.0F});
+    return target.wedge_pair->find_lid(edges, {0.3F, 0.1F, 1.5F, 1.0F, 0.0F, 0.1F});
   }
   [[nodiscard]] WedgePairs pairs() const {
     WedgePairs p{};
