@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "base/cancellation.hpp"
 
@@ -14,6 +17,11 @@ namespace farlod {
 namespace {
 
 constexpr double turn_rad = 2.0 * std::numbers::pi;
+/// Facets are not asked of gaps in which less of the sky may be seen: in all that a receiver has, and in a wedge.
+constexpr double least_gaps = 0.003;
+constexpr float least_gap_rad = 2e-4F;
+/// Facets below a gap are looked at no farther down than to this share of the slope that it begins at.
+constexpr float least_lid = 0.7F;
 
 /// A horizon with borders of the far city, too. `both` is room for it.
 const PacketHorizon& with_far(const PacketHorizon& near, const SilhouetteEdges& far, const ReceiverPacket& receivers,
@@ -27,14 +35,16 @@ const PacketHorizon& with_far(const PacketHorizon& near, const SilhouetteEdges& 
 }  // namespace
 
 CertainSky::CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
-                       const ResidualHorizon& residual)
+                       const ResidualHorizon& residual, OverhangGeometry& overhangs)
     : silhouettes_(silhouettes),
       lower_ends_(std::array<const SilhouetteEdges*, 2>{&silhouettes.near.undersides, &silhouettes.far.undersides}),
       residual_(residual),
+      overhangs_(overhangs),
       weight_(weight),
       wanted_(wanted_width),
       group_(azimuths),
       envelope_(azimuths, weight),
+      wedge_gaps_(azimuths),
       upper_(azimuths, PacketHorizon::Edges::tracked),
       lower_(azimuths),
       edges_in_wedges_(azimuths),
@@ -43,7 +53,6 @@ CertainSky::CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const 
 void CertainSky::keep(const AllowedError& allowed) {
   allowed_.emplace(allowed);
   wanted_ = std::min(wanted_, allowed.error);
-  envelope_.keep_terms();
 }
 
 void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const PacketHorizon> grounded) {
@@ -60,6 +69,8 @@ void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const 
   upper_places_.find_further(std::span(upper).subspan(1), silhouettes_.upper_ends);
   const std::array<const SilhouetteEdges*, 2> lower{&near_.undersides, &far_.undersides};
   lower_places_.find(lower, lower_ends_);
+  far_places_.find(std::span(upper).last(1), silhouettes_.upper_ends);
+  if (has_undersides()) wedge_gaps_.begin(packets, grounded);
 }
 
 double CertainSky::Open::farther_end_from(double value, std::size_t lane) const {
@@ -76,13 +87,93 @@ CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPa
   envelope_.raise_to_ends(upper_places_.batches(), tops_);
   Open open;
   open.gaps = most_in_gaps(near, receivers, overhead.below);
+  list_gaps(near, receivers, open, overhead);
   open.sky = sky_above_borders(near, receivers);
-  for (std::size_t l = 0; l < receivers.count; ++l) {
-    if (has_bit(overhead.below, l)) open.sky.low[l] = open.sky.high[l] = 0.0;
+  close_above(overhead, open);
+  narrow_by_facets(receivers, overhead, open);
+  for (std::size_t l = 0; l < receivers.count; ++l)
     if (has_bit(overhead.in_recess, l))
       open.gaps[l] = static_cast<double>(envelope_.size()) * most_in_recess(receivers, l, overhead) / turn_rad;
-  }
   return open;
+}
+
+void CertainSky::close_above(const Overhead& overhead, Open& open) {
+  if (overhead.below == 0) return;
+  for (std::size_t l = 0; l < packet_lanes; ++l) {
+    if (!has_bit(overhead.below, l)) continue;
+    open.sky.low[l] = open.sky.high[l] = 0.0;
+    for (std::size_t k = 0; k < envelope_.size(); ++k) envelope_.terms().low[k][l] = envelope_.terms().high[k][l] = 0.0F;
+  }
+}
+
+void CertainSky::find_far_tops(const NearHorizons& near, const ReceiverPacket& receivers) {
+  far_tops_.assign(envelope_.size(), {});
+  if (far_.overhangs.empty()) return;
+  envelope_.raise_to_ends(far_places_.batches(), far_tops_);
+  const PacketHorizon &grounded = near.grounded(), &drawn = with_far(grounded, far_.overhangs, receivers, upper_);
+  for (std::size_t k = 0; k < envelope_.size(); ++k)
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
+      float& top = far_tops_[k][l];
+      for (const std::size_t azimuth : {k, k + 1 < envelope_.size() ? k + 1 : 0})
+        if (drawn.row(azimuth)[l] > grounded.row(azimuth)[l]) top = std::max(top, drawn.row(azimuth)[l]);
+      top *= envelope_.shape().widened;
+    }
+}
+
+void CertainSky::list_gaps(const NearHorizons& near, const ReceiverPacket& receivers, const Open& open,
+                           const Overhead& overhead) {
+  gaps_.clear();
+  if (near_.undersides.empty()) return;
+  std::uint32_t asked = 0;
+  for (std::size_t l = 0; l < receivers.count; ++l)
+    if (open.gaps[l] > least_gaps && !has_bit(overhead.in_recess, l)) asked |= 1U << l;
+  if (asked == 0) return;
+  for (std::uint32_t k = 0; k < envelope_.size(); ++k) {
+    if (reached_[k] == 0) continue;
+    const PacketHorizon::Row& most = envelope_.terms().gaps[k];
+    for (std::uint32_t bits = asked; bits != 0; bits &= bits - 1) {
+      const auto l = static_cast<std::uint32_t>(std::countr_zero(bits));
+      if (most[l] > least_gap_rad) gaps_.push_back({k, l, envelope_.most(tops_, k, l), lower_borders_[k][l]});
+    }
+  }
+  if (gaps_.empty()) return;
+  find_far_tops(near, receivers);
+  for (WedgeGaps::Gap& gap : gaps_) {
+    const float far = std::max(in_wedges_.most[gap.azimuth][gap.lane], far_tops_[gap.azimuth][gap.lane]);
+    const float lid = std::min(envelope_.lid(gap.azimuth, gap.lane), gap.from);
+    // Far below the gap many more facets are met, and little is seen between slopes that are close
+    if (lid > least_lid * gap.from && envelope_.level_sky_between(lid, gap.from) > 0.5F * least_gap_rad) {
+      gap.lid = lid;
+      if (far <= lid) gap.below = envelope_.open_below(gap.from, gap.to, gap.azimuth, gap.lane);
+    }
+    gap.from = std::max(gap.from, far);
+  }
+}
+
+void CertainSky::narrow_by_facets(const ReceiverPacket& receivers, const Overhead& overhead, Open& open) {
+  if (gaps_.empty()) return;
+  for (WedgeGaps::Gap& gap : gaps_) {
+    const float top = std::max(gap.from, envelope_.most(tops_, gap.azimuth, gap.lane));
+    gap.top = has_bit(overhead.below, gap.lane) ? std::numeric_limits<float>::infinity() : top;
+    gap.to = std::clamp(gap.to, gap.from, gap.top);
+  }
+  const std::span found = wedge_gaps_.find(gaps_, overhangs_.facets(), envelope_.shape(), weight_, receivers);
+  for (std::size_t n = 0; n < gaps_.size(); ++n) {
+    const auto [k, l] = std::pair{gaps_[n].azimuth, gaps_[n].lane};
+    float &low = envelope_.terms().low[k][l], &gap = envelope_.terms().gaps[k][l];
+    const double least = term_of(found[n].open, k, receivers, l, overhead);
+    const float raised = std::max(low, static_cast<float>(least)),
+                left = std::min(gap, std::max(std::min(gap - found[n].hidden, found[n].most), 0.0F));
+    open.sky.low[l] += (static_cast<double>(raised) - static_cast<double>(low)) / turn_rad;
+    open.gaps[l] += (static_cast<double>(left) - static_cast<double>(gap)) / turn_rad;
+    low = raised;
+    gap = left;
+  }
+}
+
+double CertainSky::term_of(double sky, std::size_t wedge, const ReceiverPacket& receivers, std::size_t l,
+                           const Overhead& overhead) const {
+  return has_bit(overhead.below, l) ? sky : envelope_.term_of(sky, wedge, receivers, l);
 }
 
 PacketEnvelope::Bounds CertainSky::sky_above_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
@@ -109,8 +200,9 @@ CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPa
 PacketEnvelope::Sums CertainSky::most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below) {
   choose_gaps(receivers, below);
   if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
+  lower_borders_ = lower_borders(near, receivers);
   const std::array<const SilhouetteEdges*, 1> edges{&grounded_};
-  return envelope_.most_in_gaps({edges, tops_, silhouettes_.upper_ends}, {lower_borders(near, receivers), reached_});
+  return envelope_.most_in_gaps({edges, tops_, silhouettes_.upper_ends}, {lower_borders_, reached_});
 }
 
 /// Where no upper border rises above the lower one of both horizons of a wedge, nothing hides more than the horizons and the far
@@ -164,8 +256,7 @@ void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Ov
                         Bounds& bounds) {
   const double allowed = std::max(0.0, allowed_->error - rounding_of_bounds);
   if (open.farther_end_from(estimate, l) <= allowed) return;
-  const bool is_below = has_bit(overhead.below, l);
-  const OpenWedges wedges{envelope_, reached_, l, is_below, most_in_recess(receivers, l, overhead)};
+  const OpenWedges wedges{envelope_, reached_, l, most_in_recess(receivers, l, overhead)};
   const auto narrower = [&](std::size_t a, std::size_t b) { return wedges.width(a) < wedges.width(b); };
   std::vector<std::size_t> widest = wedges.widest_first();
   while (open.farther_end_from(estimate, l) > allowed && !widest.empty() && wedges.width(widest.front()) > 0.0) {
@@ -173,7 +264,7 @@ void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Ov
     std::pop_heap(widest.begin(), widest.end(), narrower);
     const std::size_t k = widest.back();
     widest.pop_back();
-    const double term = exact_term(receivers, l, is_below, k);
+    const double term = exact_term(receivers, l, overhead, k);
     open.sky.low[l] += (term - wedges.low(k)) / turn_rad;
     open.sky.high[l] += (term - wedges.high(k)) / turn_rad;
     open.gaps[l] -= wedges.gap(k) / turn_rad;
@@ -182,12 +273,12 @@ void CertainSky::decide(const ReceiverPacket& receivers, std::size_t l, const Ov
   }
 }
 
-double CertainSky::exact_term(const ReceiverPacket& receivers, std::size_t l, bool is_below, std::size_t wedge) {
+double CertainSky::exact_term(const ReceiverPacket& receivers, std::size_t l, const Overhead& overhead, std::size_t wedge) {
   const Point3d place = allowed_->city.scene_from_cell({receivers.x[l], receivers.y[l], receivers.z[l]}, allowed_->cell);
   if (!exact_) exact_.emplace(allowed_->city.triangles());
   const double sky = exact_->sky_of_wedge(envelope_.wedge(wedge), place,
                                           {receivers.normal_x[l], receivers.normal_y[l], receivers.normal_z[l]}, weight_);
-  return is_below ? sky : envelope_.term_of(sky, wedge, receivers, l);
+  return term_of(sky, wedge, receivers, l, overhead);
 }
 
 }  // namespace farlod

@@ -17,6 +17,7 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "horizon/wedge_edges.hpp"
+#include "horizon/wedge_gaps.hpp"
 #include "scene/ray_scenes.hpp"
 
 namespace farlod {
@@ -43,7 +44,7 @@ class CertainSky {
 
   /// All must outlive it. The azimuths are even, at least PacketEnvelope::least_azimuths of them.
   CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const CellSilhouettes& silhouettes,
-             const ResidualHorizon& residual);
+             const ResidualHorizon& residual, OverhangGeometry& overhangs);
   /// From now on, the ends of bounds are no farther than this from the estimates.
   void keep(const AllowedError& allowed);
 
@@ -79,17 +80,22 @@ class CertainSky {
   [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const NearHorizons& near, const ReceiverPacket& receivers);
   [[nodiscard]] Open open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead);
   [[nodiscard]] PacketEnvelope::Bounds sky_above_borders(const NearHorizons& near, const ReceiverPacket& receivers);
-  /// The terms of a receiver's wedges (PacketEnvelope::Terms). Above an overhang overhead there is no sky.
+  /// Lists the gaps of which facets may tell something, by what is known of grounded edges and of the far city.
+  void list_gaps(const NearHorizons& near, const ReceiverPacket& receivers, const Open& open, const Overhead& overhead);
+  /// Rows of wedges: slopes above which no overhang of the far city rises.
+  void find_far_tops(const NearHorizons& near, const ReceiverPacket& receivers);
+  /// Above an overhang overhead there is no sky.
+  void close_above(const Overhead& overhead, Open& open);
+  /// Narrows what is known by what facets leave open, and hide, in the gaps that were listed.
+  void narrow_by_facets(const ReceiverPacket& receivers, const Overhead& overhead, Open& open);
+  /// The terms of a receiver's wedges (PacketEnvelope::Terms).
   struct OpenWedges {
     const PacketEnvelope& envelope;
     const std::vector<std::uint8_t>& reached;
     std::size_t lane;
-    bool is_below;
     double most_in_recess;  ///< of a wedge, where the receiver is in one; else 0
-    [[nodiscard]] double low(std::size_t k) const { return is_below ? 0.0 : static_cast<double>(envelope.terms().low[k][lane]); }
-    [[nodiscard]] double high(std::size_t k) const {
-      return is_below ? 0.0 : static_cast<double>(envelope.terms().high[k][lane]);
-    }
+    [[nodiscard]] double low(std::size_t k) const { return static_cast<double>(envelope.terms().low[k][lane]); }
+    [[nodiscard]] double high(std::size_t k) const { return static_cast<double>(envelope.terms().high[k][lane]); }
     [[nodiscard]] double gap(std::size_t k) const {
       if (most_in_recess > 0.0) return most_in_recess;
       return reached[k] == 0 ? 0.0 : static_cast<double>(envelope.terms().gaps[k][lane]);
@@ -98,7 +104,9 @@ class CertainSky {
     [[nodiscard]] std::vector<std::size_t> widest_first() const;
   };
   /// The term of a wedge by the whole city.
-  [[nodiscard]] double exact_term(const ReceiverPacket& receivers, std::size_t lane, bool is_below, std::size_t wedge);
+  [[nodiscard]] double exact_term(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead, std::size_t wedge);
+  [[nodiscard]] double term_of(double sky, std::size_t wedge, const ReceiverPacket& receivers, std::size_t lane,
+                               const Overhead& overhead) const;
   /// Decides wedges of a receiver by the whole city, the widest first, until its bounds are close enough to its estimate.
   void decide(const ReceiverPacket& receivers, std::size_t lane, const Overhead& overhead, double estimate, Open& open,
               Bounds& bounds);
@@ -108,25 +116,31 @@ class CertainSky {
   const CellSilhouettes& silhouettes_;
   BorderEnds lower_ends_;
   const ResidualHorizon& residual_;
+  OverhangGeometry& overhangs_;
   SkyWeight weight_;
   std::optional<AllowedError> allowed_;
   double wanted_;
   std::optional<ExactSky> exact_;  ///< once it is asked
   PacketGroup group_;
   PacketEnvelope envelope_;
+  WedgeGaps wedge_gaps_;
   // What the group sees
   SilhouetteEdges grounded_;
   OverhangEdges near_, far_;
   EndPlaces upper_places_, lower_places_;  ///< the further upper ones are those of overhangs
+  EndPlaces far_places_;                   ///< of the far city's overhangs
   // Working memory, kept from packet to packet
   ResidualHorizon::InWedges in_wedges_;
   PacketHorizon upper_, lower_;
   PacketEnvelope::Rows tops_;  ///< of the upper ends that count so far
+  PacketEnvelope::Rows far_tops_;
+  std::vector<WedgeGaps::Gap> gaps_;
   EdgesInWedges edges_in_wedges_;
   std::vector<std::uint8_t> reached_;  ///< wedges in which sky may be seen under an overhang
   std::vector<std::uint8_t> may_hide_;
   std::vector<PacketHorizon::Row> chosen_borders_;
   std::span<const PacketHorizon::Row> residual_borders_;  ///< rows of wedges: the far map's
+  std::span<const PacketHorizon::Row> lower_borders_;     ///< and all that count
 };
 
 }  // namespace farlod

@@ -14,8 +14,6 @@ namespace {
 
 /// Near facets close most gaps: so many boxes of batches come first, and then as many times more.
 constexpr std::size_t first_boxes = 1, times_more = 4;
-/// The gaps of a block lie within such a part of the turn: fewer facets are met in narrow wedges.
-constexpr std::size_t parts_of_turn = 12;
 
 /// Merges two lists in the order of azimuths, the second of which begins at `middle`.
 void merge(std::size_t middle, std::vector<OpenGap>& gaps) {
@@ -33,57 +31,22 @@ FacetsInBoxes facets_between(const OverhangFacets& facets, std::size_t first, st
 
 }  // namespace
 
-GapSections::GapSections(const AzimuthSampling& azimuths) : azimuths_(azimuths) {}
+GapSections::GapSections(const AzimuthSampling& azimuths) : azimuths_(azimuths), in_sight_(azimuths), of_packet_(azimuths) {}
 
 void GapSections::begin(std::span<const ReceiverPacket> packets, std::span<const PacketHorizon> grounded) {
-  std::vector<PacketBounds> bounds;
-  std::vector<const float*> horizons;
-  for (const ReceiverPacket& packet : packets) bounds.push_back(bounds_of(packet));
-  for (const PacketHorizon& horizon : grounded) horizons.push_back(horizon.slopes());
-  group_ = joined(bounds);
-  gap_kernels().find_lowest(horizons, azimuths_.view(), lowest_);
-  is_sorted_ = false;
-}
-
-void GapSections::sort(const OverhangFacets& facets, const PacketBounds& bounds, const LowestOfSectors& lowest,
-                       OverhangFacets& sorted) {
-  const std::size_t batches = facets.batches().size();
-  found_.resize(batches);
-  gap_kernels().find_above({facets.batches(), facets.boxes()}, bounds, lowest, found_.data());
-  bins_.resize(batches * OverhangFacets::lanes);
-  gap_kernels().find_bins(facets.batches(), bounds.box, found_.data(), bins_.data());
-  // A counting sort: count each bin, sum up where each begins, and put each facet there
-  const auto visit = [&](const auto& take) {
-    for (std::size_t batch = 0; batch < batches; ++batch)
-      for (std::uint32_t bits = found_[batch]; bits != 0; bits &= bits - 1) {
-        const std::size_t n = batch * OverhangFacets::lanes + static_cast<std::size_t>(std::countr_zero(bits));
-        if (n < facets.size()) take(n, static_cast<std::size_t>(bins_[n]));
-      }
-  };
-  places_.assign(GapKernels::bins + 1, 0);
-  visit([&](std::size_t, std::size_t bin) { ++places_[bin + 1]; });
-  std::partial_sum(places_.begin(), places_.end(), places_.begin());
-  order_.resize(places_.back());
-  visit([&](std::size_t n, std::size_t bin) { order_[places_[bin]++] = static_cast<std::uint32_t>(n); });
-  sorted.clear();
-  for (const std::uint32_t n : order_) sorted.add(facets.at(n));
+  in_sight_.begin(packets, grounded);
 }
 
 std::span<const OpenGap> GapSections::find_open(const OverhangFacets& facets, const Gaps& gaps, SkyWeight weight,
                                                 const ReceiverPacket& receivers) {
-  if (!is_sorted_) sort(facets, group_, lowest_, in_sight_);
-  is_sorted_ = true;
-  find_open_among(in_sight_, gaps, weight, receivers);
+  find_open_among(in_sight_.among(facets), gaps, weight, receivers);
   return open_;
 }
 
 std::span<const OpenGap> GapSections::find_any_open(const OverhangFacets& facets, const Gaps& gaps, SkyWeight weight,
                                                     const ReceiverPacket& receivers) {
-  LowestOfSectors lowest;
-  const float* const horizon = gaps.from.slopes();
-  gap_kernels().find_lowest({&horizon, 1}, azimuths_.view(), lowest);
-  sort(facets, bounds_of(receivers), lowest, of_packet_);
-  find_open_among(of_packet_, gaps, weight, receivers);
+  of_packet_.begin({&receivers, 1}, {&gaps.from, 1});
+  find_open_among(of_packet_.among(facets), gaps, weight, receivers);
   return open_;
 }
 
@@ -129,7 +92,7 @@ void GapSections::narrow(std::span<const OpenGap> gaps, const FacetsInBoxes& fac
                          const ReceiverPacket& receivers) {
   GapBlock block;
   while (!gaps.empty()) {
-    const std::span of_block = gaps.first(size_of_block(gaps));
+    const std::span of_block = gaps.first(size_of_block(gaps, azimuths_.size()));
     put(of_block, receivers, block);
     gap_kernels().find_open(facets, weight == SkyWeight::solid_angle, room_.front().data(), block);
     for (std::size_t n = 0; n < of_block.size(); ++n) {
@@ -144,25 +107,10 @@ void GapSections::narrow(std::span<const OpenGap> gaps, const FacetsInBoxes& fac
   }
 }
 
-std::size_t GapSections::size_of_block(std::span<const OpenGap> gaps) const {
-  const std::size_t end = gaps.front().azimuth + azimuths_.size() / parts_of_turn;
-  std::size_t size = std::min(packet_lanes, gaps.size());
-  while (gaps[size - 1].azimuth > end) --size;
-  return size;
-}
-
 void GapSections::put(std::span<const OpenGap> gaps, const ReceiverPacket& r, GapBlock& block) const {
   for (std::size_t n = 0; n < packet_lanes; ++n) {
     const OpenGap& gap = gaps[std::min(n, gaps.size() - 1)];
-    const std::size_t l = gap.lane;
-    block.x[n] = r.x[l];
-    block.y[n] = r.y[l];
-    block.z[n] = r.z[l];
-    block.normal_x[n] = r.normal_x[l];
-    block.normal_y[n] = r.normal_y[l];
-    block.normal_z[n] = r.normal_z[l];
-    block.cosine[n] = azimuths_.cosine()[gap.azimuth];
-    block.sine[n] = azimuths_.sine()[gap.azimuth];
+    block.eyes.set(n, r, gap.lane, azimuths_, gap.azimuth);
     block.from[n] = gap.from;
     block.to[n] = n < gaps.size() ? gap.to : gap.from;
     block.hidden_from[n] = gap.hidden_from;

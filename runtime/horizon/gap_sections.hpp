@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
+#include "horizon/facets_in_sight.hpp"
 #include "horizon/gap_kernels.hpp"
 #include "horizon/overhang_facets.hpp"
 #include "horizon/packet_horizon.hpp"
@@ -51,27 +52,17 @@ class GapSections {
                                                        const ReceiverPacket& receivers);
 
  private:
-  /// Makes `sorted` those facets that may rise above horizons, from near to far, and neighbors together.
-  void sort(const OverhangFacets& facets, const PacketBounds& bounds, const LowestOfSectors& lowest, OverhangFacets& sorted);
   void find_open_among(const OverhangFacets& sorted, const Gaps& gaps, SkyWeight weight, const ReceiverPacket& receivers);
   void collect(const Gaps& gaps);
   /// Narrows gaps to what facets leave open, and adds what is left to `left_` and `left_split_`.
   void narrow(std::span<const OpenGap> gaps, const FacetsInBoxes& facets, SkyWeight weight, const ReceiverPacket& receivers);
-  /// So many of the first gaps are narrowed together.
-  [[nodiscard]] std::size_t size_of_block(std::span<const OpenGap> gaps) const;
   void put(std::span<const OpenGap> gaps, const ReceiverPacket& receivers, GapBlock& block) const;
 
   const AzimuthSampling& azimuths_;
-  PacketBounds group_;
-  LowestOfSectors lowest_{};
-  bool is_sorted_ = false;   ///< the facets of the group
-  OverhangFacets in_sight_;  ///< these
+  FacetsInSight in_sight_, of_packet_;
   std::vector<OpenGap> open_, split_;
   // Working memory, kept from packet to packet
-  OverhangFacets of_packet_;
   std::vector<OpenGap> left_, left_split_;
-  std::vector<std::int32_t> bins_;
-  std::vector<std::uint32_t> places_, order_;
   std::vector<std::uint16_t> found_;
   std::vector<PacketHorizon::Row> room_;
 };

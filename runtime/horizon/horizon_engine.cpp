@@ -153,7 +153,7 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
 }
 
 CertainSky& HorizonEngine::certain() {
-  if (!certain_) certain_.emplace(azimuths_, weight_, silhouettes_, residual_);
+  if (!certain_) certain_.emplace(azimuths_, weight_, silhouettes_, residual_, overhangs_);
   return *certain_;
 }
 

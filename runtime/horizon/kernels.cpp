@@ -20,6 +20,7 @@ namespace farlod {
   extern const WedgeEndKernels wedge_end_kernels;   \
   extern const WedgeSkyKernels wedge_sky_kernels;   \
   extern const WedgePairKernels wedge_pair_kernels; \
+  extern const WedgeGapKernels wedge_gap_kernels;   \
   extern const PixelKernels pixel_kernels;          \
   extern const LightKernels light_kernels;          \
   }
@@ -46,14 +47,16 @@ std::vector<KernelTarget> find_runnable_kernels() {
 #ifdef FARLOD_X86_TARGETS
   if (runs_avx512())
     targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels, &avx512::gap_kernels, &avx512::wedge_end_kernels,
-                       &avx512::wedge_sky_kernels, &avx512::wedge_pair_kernels, &avx512::pixel_kernels, &avx512::light_kernels});
+                       &avx512::wedge_sky_kernels, &avx512::wedge_pair_kernels, &avx512::wedge_gap_kernels,
+                       &avx512::pixel_kernels, &avx512::light_kernels});
   if (runs_avx2())
     targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels, &avx2::gap_kernels, &avx2::wedge_end_kernels,
-                       &avx2::wedge_sky_kernels, &avx2::wedge_pair_kernels, &avx2::pixel_kernels, &avx2::light_kernels});
+                       &avx2::wedge_sky_kernels, &avx2::wedge_pair_kernels, &avx2::wedge_gap_kernels, &avx2::pixel_kernels,
+                       &avx2::light_kernels});
 #endif
   targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels, &baseline::gap_kernels,
                      &baseline::wedge_end_kernels, &baseline::wedge_sky_kernels, &baseline::wedge_pair_kernels,
-                     &baseline::pixel_kernels, &baseline::light_kernels});
+                     &baseline::wedge_gap_kernels, &baseline::pixel_kernels, &baseline::light_kernels});
   return targets;
 }
 
@@ -86,6 +89,11 @@ const WedgeEndKernels& wedge_end_kernels() {
 
 const WedgeSkyKernels& wedge_sky_kernels() {
   static const WedgeSkyKernels& fastest = *runnable_kernels().front().wedge_sky;
+  return fastest;
+}
+
+const WedgeGapKernels& wedge_gap_kernels() {
+  static const WedgeGapKernels& fastest = *runnable_kernels().front().wedge_gap;
   return fastest;
 }
 

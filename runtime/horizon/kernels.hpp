@@ -120,6 +120,7 @@ struct GapKernels;
 struct WedgeEndKernels;
 struct WedgeSkyKernels;
 struct WedgePairKernels;
+struct WedgeGapKernels;
 struct PixelKernels;
 struct LightKernels;
 
@@ -132,6 +133,7 @@ struct KernelTarget {
   const WedgeEndKernels* wedge_end;
   const WedgeSkyKernels* wedge_sky;
   const WedgePairKernels* wedge_pair;
+  const WedgeGapKernels* wedge_gap;
   const PixelKernels* pixel;
   const LightKernels* light;
 };
@@ -146,6 +148,7 @@ struct KernelTarget {
 [[nodiscard]] const WedgeEndKernels& wedge_end_kernels();
 [[nodiscard]] const WedgeSkyKernels& wedge_sky_kernels();
 [[nodiscard]] const WedgePairKernels& wedge_pair_kernels();
+[[nodiscard]] const WedgeGapKernels& wedge_gap_kernels();
 [[nodiscard]] const PixelKernels& pixel_kernels();
 [[nodiscard]] const LightKernels& light_kernels();
 

@@ -46,7 +46,7 @@ PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight
       others_(azimuths.size()),
       doubtful_(azimuths.size() * packet_lanes) {
   FARLOD_EXPECTS(azimuths.size() >= least_azimuths);
-  for (Rows* rows : {&terms_.low, &terms_.high, &terms_.gaps}) rows->resize(azimuths.size());
+  for (Rows* rows : {&terms_.low, &terms_.high, &terms_.gaps, &lids_}) rows->resize(azimuths.size());
   const auto direction = [&](std::size_t k) { return Point2d{azimuths.cosine()[k], azimuths.sine()[k]}; };
   for (std::size_t k = 0; k < azimuths.size(); ++k)
     wedges_.push_back(wedge_between(direction(k), direction(k + 1 < azimuths.size() ? k + 1 : 0)));
@@ -96,7 +96,7 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
       low += static_cast<double>(d.pairs.low[d.n]);
       high += static_cast<double>(d.pairs.high[d.n]);
     }
-    if (has_terms_) keep_terms_of(l);
+    keep_terms_of(l);
     bounds.low[l] = low / turn_rad;
     bounds.high[l] = high / turn_rad;
   }
@@ -118,12 +118,16 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   return sums;
 }
 
+float PacketEnvelope::open_below(float slope, float border, std::size_t k, std::size_t lane) const {
+  const bool is_simple = !has_bit(others_[k], lane);
+  if (wedge_weight_ != WedgeWeight::cosine_up || !is_simple || slope >= border) return 0.0F;
+  return std::max(0.0F, terms_.gaps[k][lane] - level_sky_between(slope, border));
+}
+
 SimpleSums PacketEnvelope::sum_simple(const Occluders& occluders, const Hiding& hiding) {
   SimpleSums sums;
-  if (has_terms_) {
-    sums.low_rows = terms_.low.front().data();
-    sums.high_rows = terms_.high.front().data();
-  }
+  sums.low_rows = terms_.low.front().data();
+  sums.high_rows = terms_.high.front().data();
   wedge_sky_kernels().sum_simple({slopes_, numbers_}, {hiding.least.front().data(), hiding.most.front().data()}, *receivers_,
                                  azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(), sums);
   return sums;
@@ -185,12 +189,16 @@ std::uint32_t PacketEnvelope::beyond_pairs(const Eye& eye, std::span<const std::
 void PacketEnvelope::bound_gaps(const Eye& eye, std::span<const Row> borders) {
   const std::size_t l = eye.lane;
   visit_pairs(eye, [&](std::span<const std::uint32_t> wedges, const WedgePairs& pairs) {
-    alignas(64) std::array<float, packet_lanes> higher{}, most;
+    alignas(64) std::array<float, packet_lanes> higher{};
+    GapsOfPairs gaps;
     // Between edges, a lower border that is no higher than this receiver's horizons may show sky, too
     for (std::size_t n = 0; n < wedges.size(); ++n)
       higher[n] = std::max(borders[wedges[n]][l], lower_[wedges[n]][l] * shape_.widened);
-    wedge_pair_kernels().bound_gaps(pairs, higher.data(), shape_, wedge_weight_, most.data());
-    for (std::size_t n = 0; n < wedges.size(); ++n) terms_.gaps[wedges[n]][l] = most[n];
+    wedge_pair_kernels().bound_gaps(pairs, higher.data(), shape_, wedge_weight_, gaps);
+    for (std::size_t n = 0; n < wedges.size(); ++n) {
+      terms_.gaps[wedges[n]][l] = gaps.most[n];
+      lids_[wedges[n]][l] = gaps.lid[n];
+    }
   });
 }
 
@@ -202,8 +210,7 @@ void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, Wedg
   pairs.sine[n] = static_cast<float>(wedges_[k].from.y);
   pairs.from[n] = slope_at(k, l);
   pairs.to[n] = slope_at(after, l);
-  const float top = std::max({eye.occluders.tops[k][l], pairs.from[n], pairs.to[n]});
-  pairs.top[n] = std::max(top * shape_.widened, eye.hiding.most[k][l]);
+  pairs.top[n] = std::max(most(eye.occluders.tops, k, l), eye.hiding.most[k][l]);
   pairs.least[n] = eye.hiding.least[k][l];
 }
 

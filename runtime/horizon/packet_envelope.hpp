@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,16 @@ class PacketEnvelope {
   /// above the lower one of both horizons.
   void raise_to_ends(std::span<const EndBatch> ends, std::span<Row> tops);
 
+  /// A slope above which neither the horizon nor these ends rise in a wedge.
+  [[nodiscard]] float most(std::span<const Row> tops, std::size_t k, std::size_t lane) const {
+    return shape_.widened * std::max({tops[k][lane], slope_at(k, lane), slope_at(next(k), lane)});
+  }
+
+  /// A slope below which edges hide all of a wedge that has a gap, after most_in_gaps().
+  [[nodiscard]] float lid(std::size_t k, std::size_t lane) const {
+    return has_bit(others_[k], lane) ? lids_[k][lane] : lower_[k][lane];
+  }
+
   /// What hides the sky. All of it must outlive the call.
   struct Occluders {
     /// The edges of the horizon, which hide all that is below them; without those that are no higher than it in any of their
@@ -63,6 +74,9 @@ class PacketEnvelope {
   };
   /// How much sky lies between the edges and the borders, at most.
   [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps);
+  /// How much of a wedge's gap, as that found it, lies below a slope: the sky between an edge and the slope, in radians, where
+  /// that is known to the last digit.
+  [[nodiscard]] float open_below(float slope, float border, std::size_t k, std::size_t lane) const;
   /// Rows of the wedges that count: the lower borders with these ends above the horizon, or `others` where these are higher.
   [[nodiscard]] std::span<const Row> find_lower_borders(std::span<const EndBatch> ends, const PacketHorizon& lower_borders,
                                                         const Gaps& others);
@@ -70,13 +84,18 @@ class PacketEnvelope {
   /// Rows of wedges, of the last call of either: their terms in it. By the cosine, but for packets that look up, what cancels
   /// from wedge to wedge is left out, as `term_of` does after bounds().
   struct Terms {
-    Rows low, high;  ///< after keep_terms()
-    Rows gaps;       ///< where some are reached
+    Rows low, high;
+    Rows gaps;  ///< where some are reached
   };
-  void keep_terms() { has_terms_ = true; }
   [[nodiscard]] const Terms& terms() const { return terms_; }
+  [[nodiscard]] Terms& terms() { return terms_; }
   [[nodiscard]] double term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const;
   [[nodiscard]] const Wedge& wedge(std::size_t k) const { return wedges_[k]; }
+  [[nodiscard]] const WedgeShape& shape() const { return shape_; }
+  /// What a receiver that looks straight up sees of a wedge between two slopes, in radians.
+  [[nodiscard]] float level_sky_between(float low, float high) const {
+    return shape_.angle / (1.0F + low * low) - shape_.angle / (1.0F + high * high);
+  }
   [[nodiscard]] std::size_t size() const { return wedges_.size(); }
   /// LowerHorizons::minima.
   [[nodiscard]] const float* least_horizons() const { return minima_.data(); }
@@ -147,7 +166,6 @@ class PacketEnvelope {
   WedgeShape shape_{};
   WedgeEnvelope envelope_;
   EdgesInWedges edges_;
-  bool has_terms_ = false;
   Terms terms_;
   Rows none_;  ///< hides nothing
   // Working memory, kept from packet to packet
@@ -159,6 +177,7 @@ class PacketEnvelope {
   Rows own_slopes_;
   std::vector<std::int32_t> own_numbers_;
   Rows lower_, borders_;
+  Rows lids_;  ///< of wedges with gaps that are not simple
   std::vector<float> minima_;
   std::vector<std::uint16_t> others_;    ///< a bit for each receiver for whom a wedge is not simple
   std::vector<std::uint32_t> doubtful_;  ///< these wedges, receiver by receiver

@@ -107,6 +107,10 @@ struct PairsAnswer {
   alignas(64) float lid[16];            ///< a slope below which both hide all of the wedge
   std::uint32_t unknown;                ///< a bit for each wedge that nothing is known of
 };
+/// The most sky in their gaps, in radians; and a slope below which both edges hide all of the wedge.
+struct GapsOfPairs {
+  alignas(64) float most[16], lid[16];
+};
 /// Sixteen edges that may reach into a wedge.
 struct WedgeEdges {
   alignas(64) float ax[16], ay[16], az[16], bx[16], by[16], bz[16];
@@ -137,9 +141,10 @@ struct WedgeSkyKernels {
 struct WedgePairKernels {
   /// The sky of wedges that are not simple, from both edges alone, in the same terms.
   void (*bound_pairs)(const WedgePairs& pairs, const WedgeShape& shape, WedgeWeight weight, PairsAnswer& answer);
-  /// The most sky between both edges and higher borders, which hides only what they do: in radians. Below `top`, all that hides
-  /// sky of the wedge is.
-  void (*bound_gaps)(const WedgePairs& pairs, const float* borders, const WedgeShape& shape, WedgeWeight weight, float* most);
+  /// The most sky between both edges and higher borders, which hides only what they do. Below `top`, all that hides sky of the
+  /// wedge is.
+  void (*bound_gaps)(const WedgePairs& pairs, const float* borders, const WedgeShape& shape, WedgeWeight weight,
+                     GapsOfPairs& gaps);
   /// The edges that may rise above an envelope through three heights: a bit for each.
   std::uint32_t (*find_above)(const WedgeEdges& edges, const WedgeEye& eye);
   /// A height below which one of the edges hides all of the wedge, by its ends alone; 0 if none does. `turn` and heights are not

@@ -147,7 +147,7 @@ void bound_pairs(const WedgePairs& pairs, const WedgeShape& w, WedgeWeight weigh
 
 /// All that is seen between the pair and the borders, where these are higher.
 template <WedgeWeight weight>
-FARLOD_LANES void bound_gaps_by(const WedgePairs& e, const float* borders, const WedgeShape& w, float* most) {
+FARLOD_LANES void bound_gaps_by(const WedgePairs& e, const float* borders, const WedgeShape& w, GapsOfPairs& gaps) {
   PairsAnswer answer;
   const Floats known = bound_pairs_by<weight>(e, w, answer);
   const Floats c = load(e.cosine), s = load(e.sine), zero = broadcast(0.0F);
@@ -161,17 +161,18 @@ FARLOD_LANES void bound_gaps_by(const WedgePairs& e, const float* borders, const
     const Floats below_top = load(answer.high) - w.angle / (1.0F + top * top);
     sky = choose(known < 0.5F, sky, min(sky, max(below_top, zero)));
   }
-  store(choose(border > lid, sky, zero), most);
+  store(choose(border > lid, sky, zero), gaps.most);
+  store(lid, gaps.lid);
 }
 
-void bound_gaps(const WedgePairs& pairs, const float* borders, const WedgeShape& w, WedgeWeight weight, float* most) {
+void bound_gaps(const WedgePairs& pairs, const float* borders, const WedgeShape& w, WedgeWeight weight, GapsOfPairs& gaps) {
   switch (weight) {
     case WedgeWeight::cosine_up:
-      return bound_gaps_by<WedgeWeight::cosine_up>(pairs, borders, w, most);
+      return bound_gaps_by<WedgeWeight::cosine_up>(pairs, borders, w, gaps);
     case WedgeWeight::cosine:
-      return bound_gaps_by<WedgeWeight::cosine>(pairs, borders, w, most);
+      return bound_gaps_by<WedgeWeight::cosine>(pairs, borders, w, gaps);
     case WedgeWeight::solid_angle:
-      return bound_gaps_by<WedgeWeight::solid_angle>(pairs, borders, w, most);
+      return bound_gaps_by<WedgeWeight::solid_angle>(pairs, borders, w, gaps);
   }
 }
 

@@ -120,7 +120,14 @@ FARLOD_LANES void find_simple_gaps_by(const NumberedHorizon& h, const AskedBorde
     const Floats simple = simple_of(h, at, next, load(tops + at), lower), border = load(asked.borders + at);
     others[k] = static_cast<std::uint16_t>(bits_of(simple < 0.5F));
     const Floats outward = most_outward(n.x * a.cosine[k] + n.y * a.sine[k], n.x * a.cosine[after] + n.y * a.sine[after], w);
-    const Floats sky = most_sky_between<weight>(lower, border, outward, n.z, w.angle);
+    Floats sky = most_sky_between<weight>(lower, border, outward, n.z, w.angle);
+    if constexpr (weight == WedgeWeight::cosine_up) {
+      // Above the edge itself
+      const Floats above = min(border, broadcast(straight_up));
+      const Arc arc{
+          a.cosine[k], a.sine[k], a.cosine[after], a.sine[after], min(t, broadcast(straight_up)), min(u, broadcast(straight_up))};
+      sky = min(sky, max(sky_above<weight>(arc, n, w) - w.angle / (1.0F + above * above), none));
+    }
     store(choose(border > lower, simple * sky, none), gaps + at);
   }
 }

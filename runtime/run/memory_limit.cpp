@@ -36,7 +36,7 @@ constexpr double named_crown_bytes = 100;  // of one in CrownsOfCell, where an e
 // A sample of the sky takes: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
 constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // HorizonEngine
-constexpr double bounds_azimuth_bytes = 500 + 15 * 64;                // CertainSky
+constexpr double bounds_azimuth_bytes = 500 + 17 * 64;                // CertainSky
 /// What further quantities add: profiles of a group of packets, and rows that are made of them.
 constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
 // PixelCity: a pixel; at each azimuth, its path near a receiver, and each pixel farther along the sides of the raster

@@ -41,7 +41,6 @@ constexpr LongFunction long_functions[] = {
     {"preprocess/ingest/citygml/citygml_reading.cpp", "undo", "a switch: one case for each meaning of an element"},
     {"package/horizon_edge.hpp", "may_be_silhouette", "a proof, case by case"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
-    {"runtime/horizon/gap_kernels.cpp", "section_of", "a kernel: its steps share vectors of 16 lanes"},
 };
 
 /// CGAL, which farlod-pack is built on, and PyQGIS, which the plug-in is, have the GPL.

@@ -149,9 +149,9 @@ TEST(OpenGaps, OfEyesAtCornersOfFacets) {
     }
     GapBlock block{};
     for (std::size_t l = 0; l < packet_lanes; ++l) {
-      block.x[l] = whole(-3.0, 3.0), block.y[l] = whole(-3.0, 3.0), block.z[l] = whole(0.0, 4.0);
-      block.normal_z[l] = 1.0F;
-      block.cosine[l] = ring.cosine()[l / 4], block.sine[l] = ring.sine()[l / 4];
+      block.eyes.x[l] = whole(-3.0, 3.0), block.eyes.y[l] = whole(-3.0, 3.0), block.eyes.z[l] = whole(0.0, 4.0);
+      block.eyes.normal_z[l] = 1.0F;
+      block.eyes.cosine[l] = ring.cosine()[l / 4], block.eyes.sine[l] = ring.sine()[l / 4];
       block.to[l] = l % 2 == 0 ? std::numeric_limits<float>::infinity() : random.between(0.3, 3.0);
     }
     std::vector<PacketHorizon::Row> room(2 * (facets.size() + 1));

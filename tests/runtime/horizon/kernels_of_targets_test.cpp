@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,10 +34,9 @@ TEST_P(KernelsOfTargets, OpenGapsAsOnTheBaseline) {
   }
   ReceiverPacket packet;
   for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) packet.add({0, {}, random.direction_at(random.between(-1.0, 1.0))});
-  GapBlock block{packet.x, packet.y, packet.z, packet.normal_x, packet.normal_y, packet.normal_z, {}, {}, {}, {}, {}, {}, {}, {}};
+  GapBlock block{};
   for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
-    block.cosine[l] = azimuths.cosine()[l / 4];
-    block.sine[l] = azimuths.sine()[l / 4];
+    block.eyes.set(l, packet, l, azimuths, l / 4);
     block.to[l] = random.between(0.3, 3.0);
   }
   GapBlock expected = block;
@@ -51,12 +52,26 @@ TEST_P(KernelsOfTargets, OpenGapsAsOnTheBaseline) {
     for (const float sky : block.sky) open += sky > 0.0F ? 1 : 0;
   }
   EXPECT_GT(open, 4) << "too few to tell";
+  const WedgeShape wedge{0.06F, std::cos(0.06F), std::sin(0.06F), std::tan(0.06F), 1.0005F};
+  WedgeGapBlock gaps{};
+  gaps.eyes = block.eyes;
+  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+    gaps.from[l] = 0.01F, gaps.to[l] = gaps.top[l] = 2.0F, gaps.below[l] = 1e-4F;
+  WedgeGapBlock expected_gaps = gaps;
+  std::vector<PacketHorizon::Row> more_room(4 * (ReceiverPacket::lanes * facets.batches().size() + 1));
+  GetParam().wedge_gap->find_certain({facets.batches(), facets.boxes()}, wedge, false, more_room.front().data(), gaps);
+  runnable_kernels().back().wedge_gap->find_certain({facets.batches(), facets.boxes()}, wedge, false, more_room.front().data(),
+                                                    expected_gaps);
+  EXPECT_EQ(gaps.open, expected_gaps.open);
+  EXPECT_EQ(gaps.hidden, expected_gaps.hidden);
+  EXPECT_EQ(gaps.most, expected_gaps.most);
+  EXPECT_GT(*std::max_element(gaps.hidden.begin(), gaps.hidden.end()), 0.0F) << "too few to tell";
   LowestOfSectors lowest;
   std::vector<PacketHorizon::Row> slopes(azimuths.size());
   for (PacketHorizon::Row& row : slopes)
     for (float& slope : row) slope = random.between(0.0, 3.0);
   const float* const horizon = slopes.front().data();
-  GetParam().gap->find_lowest({&horizon, 1}, azimuths.view(), lowest);
+  GetParam().gap->find_lowest({&horizon, 1}, azimuths.view(), RaisingAt::azimuths, lowest);
   std::vector<std::uint16_t> found(facets.batches().size()), expected_found(found.size());
   GetParam().gap->find_above({facets.batches(), facets.boxes()}, bounds_of(packet), lowest, found.data());
   baseline.find_above({facets.batches(), facets.boxes()}, bounds_of(packet), lowest, expected_found.data());
