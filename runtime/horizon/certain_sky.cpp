@@ -70,7 +70,7 @@ void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const 
   const std::array<const SilhouetteEdges*, 2> lower{&near_.undersides, &far_.undersides};
   lower_places_.find(lower, lower_ends_);
   far_places_.find(std::span(upper).last(1), silhouettes_.upper_ends);
-  if (has_undersides()) wedge_gaps_.begin(packets, grounded);
+  wedge_gaps_.begin(packets, grounded);
 }
 
 double CertainSky::Open::farther_end_from(double value, std::size_t lane) const {
@@ -88,6 +88,7 @@ CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPa
   Open open;
   open.gaps = most_in_gaps(near, receivers, overhead.below);
   list_gaps(near, receivers, open, overhead);
+  envelope_.keep_terms(allowed_ || !gaps_.empty());
   open.sky = sky_above_borders(near, receivers);
   close_above(overhead, open);
   narrow_by_facets(receivers, overhead, open);
@@ -123,7 +124,6 @@ void CertainSky::find_far_tops(const NearHorizons& near, const ReceiverPacket& r
 void CertainSky::list_gaps(const NearHorizons& near, const ReceiverPacket& receivers, const Open& open,
                            const Overhead& overhead) {
   gaps_.clear();
-  if (near_.undersides.empty()) return;
   std::uint32_t asked = 0;
   for (std::size_t l = 0; l < receivers.count; ++l)
     if (open.gaps[l] > least_gaps && !has_bit(overhead.in_recess, l)) asked |= 1U << l;

@@ -96,7 +96,7 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
       low += static_cast<double>(d.pairs.low[d.n]);
       high += static_cast<double>(d.pairs.high[d.n]);
     }
-    keep_terms_of(l);
+    if (has_terms_) keep_terms_of(l);
     bounds.low[l] = low / turn_rad;
     bounds.high[l] = high / turn_rad;
   }
@@ -118,16 +118,12 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   return sums;
 }
 
-float PacketEnvelope::open_below(float slope, float border, std::size_t k, std::size_t lane) const {
-  const bool is_simple = !has_bit(others_[k], lane);
-  if (wedge_weight_ != WedgeWeight::cosine_up || !is_simple || slope >= border) return 0.0F;
-  return std::max(0.0F, terms_.gaps[k][lane] - level_sky_between(slope, border));
-}
-
 SimpleSums PacketEnvelope::sum_simple(const Occluders& occluders, const Hiding& hiding) {
   SimpleSums sums;
-  sums.low_rows = terms_.low.front().data();
-  sums.high_rows = terms_.high.front().data();
+  if (has_terms_) {
+    sums.low_rows = terms_.low.front().data();
+    sums.high_rows = terms_.high.front().data();
+  }
   wedge_sky_kernels().sum_simple({slopes_, numbers_}, {hiding.least.front().data(), hiding.most.front().data()}, *receivers_,
                                  azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(), sums);
   return sums;

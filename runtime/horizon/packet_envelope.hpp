@@ -76,7 +76,10 @@ class PacketEnvelope {
   [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps);
   /// How much of a wedge's gap, as that found it, lies below a slope: the sky between an edge and the slope, in radians, where
   /// that is known to the last digit.
-  [[nodiscard]] float open_below(float slope, float border, std::size_t k, std::size_t lane) const;
+  [[nodiscard]] float open_below(float slope, float border, std::size_t k, std::size_t lane) const {
+    const bool is_known = wedge_weight_ == WedgeWeight::cosine_up && !has_bit(others_[k], lane) && slope < border;
+    return is_known ? std::max(0.0F, terms_.gaps[k][lane] - level_sky_between(slope, border)) : 0.0F;
+  }
   /// Rows of the wedges that count: the lower borders with these ends above the horizon, or `others` where these are higher.
   [[nodiscard]] std::span<const Row> find_lower_borders(std::span<const EndBatch> ends, const PacketHorizon& lower_borders,
                                                         const Gaps& others);
@@ -84,9 +87,10 @@ class PacketEnvelope {
   /// Rows of wedges, of the last call of either: their terms in it. By the cosine, but for packets that look up, what cancels
   /// from wedge to wedge is left out, as `term_of` does after bounds().
   struct Terms {
-    Rows low, high;
-    Rows gaps;  ///< where some are reached
+    Rows low, high;  ///< after keep_terms(true)
+    Rows gaps;       ///< where some are reached
   };
+  void keep_terms(bool keeps) { has_terms_ = keeps; }
   [[nodiscard]] const Terms& terms() const { return terms_; }
   [[nodiscard]] Terms& terms() { return terms_; }
   [[nodiscard]] double term_of(double sky, std::size_t k, const ReceiverPacket& receivers, std::size_t lane) const;
@@ -166,6 +170,7 @@ class PacketEnvelope {
   WedgeShape shape_{};
   WedgeEnvelope envelope_;
   EdgesInWedges edges_;
+  bool has_terms_ = false;
   Terms terms_;
   Rows none_;  ///< hides nothing
   // Working memory, kept from packet to packet

@@ -120,6 +120,7 @@ TEST_P(PacketEnvelopes, BoundTheSkyAboveAllEdges) {
 
 TEST_P(PacketEnvelopes, BoundTheSkyOfWedgesInWhichAnEdgeDips) {
   // Borders of gables, steep and near: they fall below the level, and below the planes of tilted receivers, where others begin
+  envelope_.keep_terms(true);
   const PacketEnvelope::Rows nothing = rows_of(0.0F);
   for (int scene = 0; scene < 10; ++scene) {
     std::vector<HorizonEdge> gables;
@@ -188,6 +189,7 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBordersBetweenHorizons) {
 
 TEST_P(PacketEnvelopes, AreTheSumsOfTheirTerms) {
   const PacketEnvelope::Rows nothing = rows_of(0.0F);
+  envelope_.keep_terms(true);
   const PacketEnvelope::Bounds bounds = envelope_.bounds(occluders(), {nothing, nothing}, 0.005);
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     double low = 0.0, high = 0.0, exact = 0.0;
