@@ -177,8 +177,8 @@ void find_facing(KernelCity& city, State& state, const KernelTarget& target) {
 }
 
 void raise_to_edges(const GroundPacket& packet, const KernelTarget& target, Rows& slopes) {
-  target.edge->raise_to_edges({packet.edges.batches(), EdgeRole::grounded}, packet.receivers, bounds_of(packet.receivers),
-                              packet.azimuths.view(), Culling::nothing_drawn, slopes.front().data(), nullptr);
+  (void)target.edge->raise_to_edges({packet.edges.batches(), EdgeRole::grounded}, packet.receivers, bounds_of(packet.receivers),
+                                    packet.azimuths.view(), Culling::nothing_drawn, {slopes.front().data()});
 }
 void raise_to_edges(KernelCity& city, State& state, const KernelTarget& target) {
   const GroundPacket packet(city);

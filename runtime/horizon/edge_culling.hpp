@@ -124,6 +124,10 @@ FARLOD_LANES Floats within_half_a_turn(const Floats& turns) {
   return choose(turns > 0.5F, turns - 1.0F, choose(turns < -0.5F, turns + 1.0F, turns));
 }
 
+FARLOD_LANES std::uint32_t within_turn(std::uint32_t k, std::uint32_t turn) {
+  return k >= 2 * turn ? k - 2 * turn : k >= turn ? k - turn : k;
+}
+
 struct AzimuthInterval {
   Floats from, to;
 };

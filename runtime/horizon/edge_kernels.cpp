@@ -79,7 +79,9 @@ FARLOD_LANES Crossing crossing_of(const RelativeEdge& e, float max_slope, float 
 
 /// Horizons that rise to the edges: t_k = max(t_k, slope) where d_k hits the edge.
 struct RaiseHorizon {
+  static constexpr SectorAzimuths culled_at = SectorAzimuths::inside;
   float* slopes;
+  FARLOD_LANES void keep(std::int32_t, float, std::uint32_t, std::uint32_t) const {}
   FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t, float max_slope, const AzimuthView& a, std::uint32_t first,
                          std::uint32_t end) const {
     for (std::uint32_t k = first; k < end; ++k) {
@@ -90,10 +92,20 @@ struct RaiseHorizon {
   }
 };
 
-/// The same, with the number of the edge that each slope is of.
-struct RaiseNumberedHorizon {
+/// The same, with the number of the edge that each slope is of, and the spans of all edges that may rise above them between the
+/// azimuths, too.
+struct RaiseTrackedHorizon {
+  static constexpr SectorAzimuths culled_at = SectorAzimuths::and_beside;
   float* slopes;
   std::int32_t* numbers;
+  RoomForSpans drawn;
+  std::size_t& count;
+  FARLOD_LANES void keep(std::int32_t number, float max_slope, std::uint32_t first_wedge, std::uint32_t wedges) const {
+    drawn.number[count] = static_cast<std::uint32_t>(number);
+    drawn.first[count] = static_cast<std::int32_t>(first_wedge);
+    drawn.count[count] = static_cast<std::int32_t>(wedges);
+    drawn.max_slope[count++] = max_slope;
+  }
   FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t number, float max_slope, const AzimuthView& a, std::uint32_t first,
                          std::uint32_t end) const {
     for (std::uint32_t k = first; k < end; ++k) {
@@ -112,6 +124,7 @@ struct RaiseNumberedHorizon {
 struct LowerHorizon {
   const float* min_slopes;
   float* slopes;
+  FARLOD_LANES void keep(std::int32_t, float, std::uint32_t, std::uint32_t) const {}
   FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t, float max_slope, const AzimuthView& a, std::uint32_t first,
                          std::uint32_t end) const {
     for (std::uint32_t k = first; k < end; ++k) {
@@ -165,12 +178,15 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
   for (; kept != 0; kept &= kept - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(kept));
     if (max_slope[lane] == EdgeReach::unbounded) {
+      horizon.keep(edges.number[lane], max_slope[lane], 0, azimuths.size);
       set_ends(edges, lane, receivers, e);
       draw_nearby(e, edges.number[lane], is_upper, azimuths, horizon);
       continue;
     }
     // Small and distant edges may lie between two azimuths
     const std::uint32_t first = azimuths.first_of_slot[first_slot[lane]], end = azimuths.first_of_slot[end_slot[lane]];
+    horizon.keep(edges.number[lane], max_slope[lane], within_turn(first - 1, azimuths.size),
+                 std::min(end - first + 1, azimuths.size));
     if (first == end) continue;
     set_ends(edges, lane, receivers, e);
     invert_cross(e);
@@ -198,7 +214,7 @@ FARLOD_LANES void raise_horizon(const EdgeBatches& edges, const ReceiverPacket& 
   const Renewal& renewal = renewals[static_cast<std::size_t>(culling)];
   for (std::size_t n = 0, next = renewal.first, apart = renewal.apart; n < edges.batches.size(); ++n) {
     if (n == next) {
-      find_sector_minima({&slopes, 1}, azimuths, SectorAzimuths::inside, min_horizon);
+      find_sector_minima({&slopes, 1}, azimuths, Horizon::culled_at, min_horizon);
       next += apart;
       apart *= 2;
     }
@@ -206,10 +222,14 @@ FARLOD_LANES void raise_horizon(const EdgeBatches& edges, const ReceiverPacket& 
   }
 }
 
-void raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
-                    const AzimuthView& azimuths, Culling culling, float* slopes, std::int32_t* numbers) {
-  if (numbers == nullptr) return raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseHorizon{slopes});
-  raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseNumberedHorizon{slopes, numbers});
+std::size_t raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                           const AzimuthView& azimuths, Culling culling, const DrawnRows& rows) {
+  std::size_t count = 0;
+  if (rows.numbers == nullptr)
+    raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseHorizon{rows.slopes});
+  else
+    raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseTrackedHorizon{rows.slopes, rows.numbers, rows.drawn, count});
+  return count;
 }
 
 void lower_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,

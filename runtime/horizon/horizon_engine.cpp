@@ -37,7 +37,7 @@ HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, 
       residual_(far, azimuths),
       group_(azimuths),
       recesses_(azimuths, silhouettes),
-      jumps_(azimuths),
+      jumps_(azimuths, silhouettes.upper_ends),
       sections_(azimuths),
       horizons_(azimuths, PacketHorizon::Edges::tracked),
       near_(azimuths) {}
@@ -62,7 +62,7 @@ void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const
   group_.raise(silhouettes_.grounded, packets, horizons);
   // What the grounded horizons hide is neither above an upper border nor in a gap
   const auto keep = [&](const OverhangEdges& all, OverhangEdges& in_sight) {
-    group_.keep_raising(all.overhangs, packets, horizons, RaisingAt::azimuths, in_sight.overhangs);
+    group_.keep_raising(all.overhangs, packets, horizons, RaisingAt::wedges, in_sight.overhangs);
     group_.keep_raising(all.undersides, packets, horizons, RaisingAt::azimuths, in_sight.undersides);
   };
   keep(silhouettes_.near, in_sight_.near);
@@ -107,7 +107,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& ov
                              const NearHorizons* near) {
   // Without overhangs in sight, the sky above it is the answer
   if (overhead.below == 0 && in_sight_.empty()) {
-    const auto [sky, correction] = sky_above(horizons_.grounded, receivers);
+    const auto [sky, correction] = sky_above(horizons_.grounded, receivers, overhead);
     corrections_ = correction;
     for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = answer.drawn[l] = {sky[l], sky[l], sky[l]};
     answer.by_rays = 0;
@@ -118,7 +118,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, const Overhead& ov
   horizons_.upper_borders = horizons_.grounded;
   horizons_.lower_borders.set_slopes(horizons_.grounded);
   horizons_.draw_overhangs(in_sight(overhead), receivers, overhead, FarGapEnd::lowest, near);
-  const auto [sky, correction] = sky_above(horizons_.upper_borders, receivers);
+  const auto [sky, correction] = sky_above(horizons_.upper_borders, receivers, overhead);
   corrections_ = correction;
   const Lanes in_gaps = sky_in_gaps(receivers, overhead, sky);
   for (std::size_t l = 0; l < sky.size(); ++l) {
@@ -175,28 +175,30 @@ HorizonEngine::SkyAtAzimuths HorizonEngine::bounds_at_azimuths(const ReceiverPac
   return sky;
 }
 
-HorizonJumps::SkyAbove HorizonEngine::sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers) {
+HorizonJumps::SkyAbove HorizonEngine::sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers,
+                                                const Overhead& overhead) {
   if (jump_places_ == JumpPlaces::between_azimuths) return {horizon.sky_above(weight_, receivers), {}};
-  if (!profile_) return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends);
-  profile_above(horizon, receivers);
-  HorizonJumps::OfAzimuths of_azimuths{.sky = profile_->sky};
-  if (weight_ == SkyWeight::cosine) of_azimuths.for_light = profile_->light_sky;
-  return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends, of_azimuths);
+  HorizonJumps::OfAzimuths of_azimuths;
+  if (profile_) {
+    begin_profile(horizon);
+    of_azimuths.sky = profile_->sky;
+    if (weight_ == SkyWeight::cosine) of_azimuths.for_light = profile_->light_sky;
+    if (profile_rows_.solid_sky)
+      (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, overhead.in_recess, {.sky = profile_->solid_sky});
+    if (profile_rows_.light_sky && weight_ != SkyWeight::cosine)
+      (void)jumps_.sky_above(horizon, SkyWeight::cosine, receivers, overhead.in_recess, {.for_light = profile_->light_sky});
+  }
+  return jumps_.sky_above(horizon, weight_, receivers, overhead.in_recess, of_azimuths);
 }
 
-void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers) {
+void HorizonEngine::begin_profile(const PacketHorizon& horizon) {
   for (std::size_t k = 0; k < azimuths_.size(); ++k) profile_->sky_from[k] = horizon.row(k);
   profile_->gap_from.clear();
   profile_->gap_to.clear();
   profile_->gap_share.clear();
   profile_->sky.resize(weight_ == SkyWeight::cosine ? azimuths_.size() : 0);
-  if (profile_rows_.solid_sky) {
-    profile_->solid_sky.resize(azimuths_.size());
-    (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, {.sky = profile_->solid_sky});
-  }
+  if (profile_rows_.solid_sky) profile_->solid_sky.resize(azimuths_.size());
   profile_->light_sky.resize(profile_rows_.light_sky ? azimuths_.size() : 0);
-  if (!profile_rows_.light_sky || weight_ == SkyWeight::cosine) return;
-  (void)jumps_.sky_above(horizon, SkyWeight::cosine, receivers, silhouettes_.upper_ends, {.for_light = profile_->light_sky});
 }
 
 Lanes HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead, const Lanes& above) {

@@ -90,14 +90,15 @@ class HorizonEngine {
     return overhead.in_recess != 0 ? silhouettes_ : in_sight_;
   }
   /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
-  [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
+  [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers,
+                                                 const Overhead& overhead);
   /// The sky in the gaps of `horizons_`, as drawn, for receivers that see so much sky `above` them.
   [[nodiscard]] Lanes sky_in_gaps(const ReceiverPacket& receivers, const Overhead& overhead, const Lanes& above);
   /// What the facets leave open of the gaps of those receivers that are asked for.
   [[nodiscard]] std::span<const OpenGap> open_gaps(const ReceiverPacket& receivers, const Overhead& overhead,
                                                    std::uint32_t asked);
-  /// What is known of a profile at the estimate of a horizon, and of the gaps below it.
-  void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
+  /// What is known of a profile at the estimate of a horizon, but for its sky; and of the gaps below it.
+  void begin_profile(const PacketHorizon& horizon);
   void profile_gaps(std::span<const OpenGap> open, std::uint32_t asked, const ReceiverPacket& receivers);
 
   /// The sky at the azimuths of a profile, at least and at most, of `near_`.

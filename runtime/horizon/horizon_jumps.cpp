@@ -12,9 +12,16 @@
 
 #include "farlod/point.hpp"
 #include "horizon/kernels.hpp"
+#include "horizon/wedge_kernels.hpp"
 
 namespace farlod {
 namespace {
+
+/// What may come into sight in a wedge where a border ends. Nothing is looked for among no edges.
+struct BordersInWedge {
+  const DrawnEdges* drawn;
+  std::uint32_t wedge, wedges;
+};
 
 /// A place on the way from the higher of two horizons to the lower one: the share of the way, and its slope.
 struct PlaceOnWay {
@@ -31,6 +38,18 @@ class Way {
   [[nodiscard]] PlaceOnWay place(const Point3f& p) const {
     const float x = p.x - receiver_.x, y = p.y - receiver_.y, inverse = 1.0F / std::sqrt(x * x + y * y);
     return {(cosine_ * y - sine_ * x) * inverse * per_angle_, (p.z - receiver_.z) * inverse};
+  }
+  /// Looks along a share of it.
+  [[nodiscard]] LookInWedge look(const BordersInWedge& borders, float share, float above) const {
+    const float s = share / per_angle_, c = std::sqrt(1.0F - s * s);
+    return {.wedge = borders.wedge,
+            .wedges = borders.wedges,
+            .x = receiver_.x,
+            .y = receiver_.y,
+            .z = receiver_.z,
+            .cosine = cosine_ * c - sine_ * s,
+            .sine = sine_ * c + cosine_ * s,
+            .above = above};
   }
 
  private:
@@ -68,7 +87,8 @@ class SkyAtAzimuth {
   float outward_, upward_, lowest_, highest_, behind_;
 };
 
-/// The higher horizon goes on along its edge and those that follow it, as far as they reach above the lower horizon.
+/// The higher horizon goes on along its edge and those that follow it, and then along what is highest beyond, as far as that
+/// reaches above the lower horizon.
 class BorderOnWay {
  public:
   BorderOnWay(const Way& way, const BorderEnds& ends, float higher_slope, float lower_slope)
@@ -76,12 +96,9 @@ class BorderOnWay {
 
   /// Goes to the end of an edge that lies on the way. False if there is none.
   [[nodiscard]] bool go_along(std::int32_t edge) {
-    const std::size_t first = 2 * static_cast<std::size_t>(edge);
-    const float share_a = way_.place(ends_.end(first).p).share, share_b = way_.place(ends_.end(first + 1).p).share;
-    const std::size_t farther = share_b > share_a ? first + 1 : first;
-    const float share = std::max(share_a, share_b);
+    const auto [share, end] = farther_end(static_cast<std::size_t>(edge));
     if (!(share >= 0.0F && share < 1.0F)) return false;
-    go_to(next_to(farther));
+    go_to(next_to(end));
     return true;
   }
   /// Goes on along the edge that leads farthest from where another one ended. False if there is none.
@@ -93,6 +110,20 @@ class BorderOnWay {
     if (farthest) go_to(*farthest);
     return farthest.has_value();
   }
+  /// Goes to the end of the highest border that is seen beside the end of another one, and tells the slope at which it comes into
+  /// sight. None if nothing is above the lower horizon.
+  [[nodiscard]] std::optional<float> go_beyond(const BordersInWedge& borders) {
+    // So far beside the end that rounding does not matter: with 320 azimuths 1 mm at 50 m
+    constexpr float beside = 1e-3F;
+    if (!end_ || borders.drawn == nullptr || !(at_.share + beside < 1.0F)) return std::nullopt;
+    const HighestBorder highest = wedge_end_kernels().find_highest(borders.drawn->spans(), borders.drawn->size(), ends_.all(),
+                                                                   way_.look(borders, at_.share + beside, lower_slope_));
+    if (highest.number < 0) return std::nullopt;
+    at_.slope = highest.slope;
+    const auto [share, end] = farther_end(static_cast<std::size_t>(highest.number));
+    go_to(share > at_.share ? next_to(end) : Next{{1.0F, lower_slope_}, std::nullopt});
+    return highest.slope;
+  }
   [[nodiscard]] const PlaceOnWay& at() const { return at_; }
 
  private:
@@ -100,6 +131,14 @@ class BorderOnWay {
     PlaceOnWay place;
     std::optional<std::size_t> end;  ///< unless it lies below the lower horizon, or beyond its azimuth
   };
+  struct FartherEnd {
+    float share;
+    std::size_t end;
+  };
+  [[nodiscard]] FartherEnd farther_end(std::size_t edge) const {
+    const float share_a = way_.place(ends_.end(2 * edge).p).share, share_b = way_.place(ends_.end(2 * edge + 1).p).share;
+    return share_b > share_a ? FartherEnd{share_b, 2 * edge + 1} : FartherEnd{share_a, 2 * edge};
+  }
   /// The end of an edge from here; or where it comes down to the lower horizon, which it does at the latest at its azimuth.
   [[nodiscard]] Next next_to(std::size_t end) const {
     const PlaceOnWay place = way_.place(ends_.end(end).p);
@@ -120,26 +159,35 @@ class BorderOnWay {
   std::optional<std::size_t> end_;
 };
 
-/// The mean sky on the way, past the border and, from where it ends, above the lower horizon.
-float mean_sky(BorderOnWay& border, const SkyAtAzimuth& sky, float lower_slope, float higher_sky) {
+/// The sky above both horizons, at one azimuth.
+struct SkyOfBoth {
+  float higher, lower;
+};
+
+/// The mean sky on the way, past the border and what comes into sight where it ends, and then above the lower horizon.
+float mean_sky(BorderOnWay& border, const BordersInWedge& borders, const SkyAtAzimuth& sky, const SkyOfBoth& both) {
   // More edges within one jump are not followed
   constexpr int most_edges = 16;
   constexpr float half = 0.5F;
-  float share = 0.0F, here = higher_sky, mean = 0.0F;
+  float share = 0.0F, here = both.higher, mean = 0.0F;
   for (int n = 0; n < most_edges; ++n) {
     const float there = sky.above(border.at().slope);
     mean += half * (border.at().share - share) * (here + there);
     share = border.at().share;
     here = there;
-    if (!border.go_on()) break;
+    if (border.go_on()) continue;
+    if (!((1.0F - share) * (both.lower - there) > HorizonJumps::least_beyond)) break;
+    const std::optional<float> slope = border.go_beyond(borders);
+    if (!slope) break;
+    here = sky.above(*slope);
   }
-  return mean + (1.0F - share) * sky.above(lower_slope);
+  return mean + (1.0F - share) * both.lower;
 }
 
 }  // namespace
 
 HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                               const BorderEnds& ends, const OfAzimuths& of_azimuths) {
+                                               std::uint32_t in_recess, const OfAzimuths& of_azimuths) {
   const auto [of_sky, of_light] = of_azimuths;
   SkyAbove above{horizon.sky_above(weight, receivers, sky_), {}};
   std::copy_n(sky_.begin(), of_sky.size(), of_sky.begin());
@@ -149,7 +197,7 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   for (const SkyJump& jump : horizon.find_jumps(sky_, least, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, ends, least});
+      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, least, in_recess});
       if (!of_light.empty()) of_light[correction.azimuth][lane] += correction.sky;
       const float of_rows = std::abs(sky_[jump.azimuth][lane] - sky_[after(jump.azimuth)][lane]);
       if (!(of_rows > least_jump) || correction.jump < least_jump) continue;
@@ -164,7 +212,7 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
 }
 
 HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const {
-  const auto& [horizon, weight, receivers, ends, least] = seen;
+  const auto& [horizon, weight, receivers, least, in_recess] = seen;
   const std::size_t next = after(azimuth);
   const bool is_here = horizon.row(azimuth)[lane] > horizon.row(next)[lane];
   const std::size_t higher = is_here ? azimuth : next, lower = is_here ? next : azimuth;
@@ -176,18 +224,21 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
   const float per_angle = static_cast<float>(azimuths_.size()) / (2.0F * std::numbers::pi_v<float>);
   const Way way({receivers.x[lane], receivers.y[lane], receivers.z[lane]}, cosine[higher], sine[higher],
                 is_here ? per_angle : -per_angle);
-  BorderOnWay border(way, ends, higher_slope, lower_slope);
+  BorderOnWay border(way, ends_, higher_slope, lower_slope);
   if (!border.go_along(edge)) return {};
   // (2) Both horizons at one azimuth: what is left is the jump, and not the turn of the receiver's normal
   constexpr float half = 0.5F;
   const float outward = half * (receivers.normal_x[lane] * (cosine[higher] + cosine[lower]) +
                                 receivers.normal_y[lane] * (sine[higher] + sine[lower]));
   const SkyAtAzimuth sky(weight, outward, receivers.normal_z[lane]);
-  const float higher_sky = sky.above(higher_slope), lower_sky = sky.above(lower_slope);
-  if (lower_sky - higher_sky < least) return {};
-  const float correction = mean_sky(border, sky, lower_slope, higher_sky) - half * (higher_sky + lower_sky);
+  const SkyOfBoth both{sky.above(higher_slope), sky.above(lower_slope)};
+  const float size = both.lower - both.higher;
+  if (size < least) return {};
+  const BordersInWedge borders{((in_recess >> lane) & 1U) != 0 ? nullptr : &horizon.drawn(), static_cast<std::uint32_t>(azimuth),
+                               static_cast<std::uint32_t>(azimuths_.size())};
+  const float correction = mean_sky(border, borders, sky, both) - half * (both.higher + both.lower);
   // (3) One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own
-  return {correction, correction > 0.0F ? higher : lower, lower_sky - higher_sky};
+  return {correction, correction > 0.0F ? higher : lower, size};
 }
 
 }  // namespace farlod

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace farlod {
 
 /// Places the jumps of horizons where they are. A sum over azimuths takes a jump between two of them to be in the middle. But the
-/// edge that the higher horizon belongs to is known, and so is where it ends. docs/concepts.md, "Above a horizon".
+/// edge that the higher horizon belongs to is known, and so is where it ends, and which border is highest from there on.
+/// docs/concepts.md, "Above a horizon".
 class HorizonJumps {
  public:
   /// Fewer azimuths are too far apart to take the sine of an angle between them for the angle.
@@ -24,27 +26,26 @@ class HorizonJumps {
   static constexpr float least_jump = 0.1F;
   /// Those that are worth more than others, such as where the sun is, are placed down to this.
   static constexpr float least_jump_of_light = 0.01F;
+  /// What comes into sight beside the end of a border is looked for where so much sky would be left to the lower horizon.
+  static constexpr float least_beyond = 0.2F;
 
-  /// The sampling must be even, and outlive it.
-  explicit HorizonJumps(const AzimuthSampling& azimuths) : azimuths_(azimuths), sky_(azimuths.size()), jumps_(azimuths.size()) {}
+  /// Both must outlive it. The sampling must be even, and `ends` have the numbers of the borders.
+  HorizonJumps(const AzimuthSampling& azimuths, const BorderEnds& ends)
+      : azimuths_(azimuths), ends_(ends), sky_(azimuths.size()), jumps_(azimuths.size()) {}
 
   /// The sky above a horizon, in [0, 1], and how much of it horizon.sky_above lacks, or has too much.
   struct SkyAbove {
     PacketHorizon::Lanes sky, correction;
   };
-  /// The horizon must track its edges, and `ends` be those of their numbers. No correction with fewer than `least_azimuths`.
-  [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                   const BorderEnds& ends) {
-    return sky_above(horizon, weight, receivers, ends, OfAzimuths{});
-  }
   /// Take the sky of each azimuth by itself, which the corrections of its jumps are a part of; or nothing, where there are no
   /// rows.
   struct OfAzimuths {
     std::span<PacketHorizon::Row> sky = {}, for_light = {};  ///< with jumps down to least_jump, and to least_jump_of_light
   };
-  /// The same, and the sky of each azimuth.
+  /// The horizon must track its edges. No correction with fewer than `least_azimuths`. Nothing is looked for beyond the borders
+  /// of receivers `in_recess`, since their own borders were drawn for others.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                   const BorderEnds& ends, const OfAzimuths& of_azimuths);
+                                   std::uint32_t in_recess, const OfAzimuths& of_azimuths);
 
  private:
   /// What one jump of one receiver adds to the sum over the azimuths, and to which of them.
@@ -57,13 +58,14 @@ class HorizonJumps {
     const PacketHorizon& horizon;
     SkyWeight weight;
     const ReceiverPacket& receivers;
-    const BorderEnds& ends;
     float least;
+    std::uint32_t in_recess;
   };
   [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const;
   [[nodiscard]] std::size_t after(std::size_t azimuth) const { return azimuth + 1 < azimuths_.size() ? azimuth + 1 : 0; }
 
   const AzimuthSampling& azimuths_;
+  const BorderEnds& ends_;
   // Working memory, kept from packet to packet
   std::vector<PacketHorizon::Row> sky_;  ///< of each azimuth
   std::vector<SkyJump> jumps_;

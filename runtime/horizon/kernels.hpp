@@ -36,6 +36,28 @@ enum class Culling : std::uint8_t {
 /// Where an edge may rise above a horizon: at the azimuths; or also between two, above the lower one of both horizons.
 enum class RaisingAt : std::uint8_t { azimuths, wedges };
 
+/// For each of some edges its number, the wedges that it reaches into for some receiver, so many from the first on, around the
+/// turn; and a slope that it is nowhere steeper than. A *wedge* leads from an azimuth to the next one, and has the number of its
+/// first azimuth.
+struct EdgeSpans {
+  const std::uint32_t* number;
+  const std::int32_t *first, *count;
+  const float* max_slope;
+};
+struct RoomForSpans {
+  std::uint32_t* number;
+  std::int32_t *first, *count;
+  float* max_slope;
+};
+
+/// Rows of slopes, and for horizons that track their edges the number of the edge of each slope, and room for spans of all edges
+/// that are drawn; otherwise null.
+struct DrawnRows {
+  float* slopes;
+  std::int32_t* numbers = nullptr;
+  RoomForSpans drawn = {};
+};
+
 struct EdgeKernels {
   /// For each edge its distance in the plan from the centre of a box of receivers, or −1 if it can be a silhouette for none of
   /// them: may_be_silhouette (package/horizon_edge.hpp) and a test of its height, in floats.
@@ -49,9 +71,10 @@ struct EdgeKernels {
   void (*find_raising)(const EdgeBatches& edges, const PacketBounds& bounds, std::span<const float* const> horizons,
                        const AzimuthView& azimuths, RaisingAt where, std::uint16_t* raising);
   /// Raises horizons to edges: slopes = max(slopes, slope of each edge where a receiver sees it). Where that raises a slope,
-  /// numbers[azimuth][receiver] becomes that of the edge; `numbers` may be null.
-  void (*raise_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
-                         const AzimuthView& azimuths, Culling culling, float* slopes, std::int32_t* numbers);
+  /// numbers[azimuth][receiver] becomes that of the edge. Returns how many spans were written. All edges that rise above the
+  /// lower one of both horizons of a wedge, somewhere in it, are among them.
+  std::size_t (*raise_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                                const AzimuthView& azimuths, Culling culling, const DrawnRows& rows);
   /// Lowers horizons to the edges above `min_slopes`: slopes = min(slopes, slope of each edge that is steeper than min_slopes).
   void (*lower_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
                          const AzimuthView& azimuths, const float* min_slopes, float* slopes);

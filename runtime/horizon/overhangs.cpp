@@ -167,7 +167,7 @@ void NearHorizons::draw(const PacketHorizon& grounded, const OverhangEdges& near
   has_upper_ = !near.overhangs.empty();
   has_lower_ = !near.undersides.empty();
   if (has_upper_) {
-    upper_ = grounded;
+    upper_.begin_above(grounded);
     upper_.raise(near.overhangs, receivers);
   }
   if (has_lower_) {

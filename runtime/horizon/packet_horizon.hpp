@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
+#include "horizon/drawn_edges.hpp"
 #include "horizon/kernels.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"
@@ -62,7 +63,8 @@ class PacketHorizon {
   /// Makes the horizons of the receivers with set bits infinite: they see no sky.
   void close(std::uint32_t receivers);
 
-  /// Makes the horizon of one receiver its other one, or raises it to that. `other` tracks its edges.
+  /// Makes the horizon of one receiver its other one, or raises it to that. `other` tracks its edges. Those that it has drawn are
+  /// not among drawn().
   void copy_lane(std::size_t lane, const PacketHorizon& other) {
     for (std::size_t k = 0; k < slopes_.size(); ++k) slopes_[k][lane] = other.slopes_[k][lane];
     for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k][lane] = other.numbers_[k][lane];
@@ -76,9 +78,14 @@ class PacketHorizon {
   }
   /// Makes the slopes those of other horizons; of which edges they are is unknown.
   void set_slopes(const PacketHorizon& other);
+  /// Makes the slopes those of other horizons, and the edges at the azimuths; drawn() is what is drawn from now on.
+  void begin_above(const PacketHorizon& other);
   /// The number of the edge (SilhouetteEdges::number) that a horizon belongs to; −1 if it is that of a far map, or level. Of
   /// horizons that track their edges, and that were raised since then by edges and estimates alone.
   [[nodiscard]] std::int32_t edge_number(std::size_t azimuth, std::size_t lane) const { return numbers_[azimuth][lane]; }
+  /// The edges that were drawn, of horizons that track theirs: among them are all of those lists that rise somewhere in a wedge
+  /// above the lower one of both horizons. Others may be there, too.
+  [[nodiscard]] const DrawnEdges& drawn() const { return drawn_; }
   /// The edge numbers of all, as kernels.hpp has them.
   [[nodiscard]] const std::int32_t* numbers() const { return numbers_.front().data(); }
   /// Where horizons that track their edges go from one edge to another, and the sky of the azimuths changes by more than `least`.
@@ -126,6 +133,7 @@ class PacketHorizon {
   const AzimuthSampling* azimuths_;
   std::vector<Row> slopes_;       ///< slopes_[azimuth][receiver]
   std::vector<Numbers> numbers_;  ///< of the edges, as many; empty if they are not tracked
+  DrawnEdges drawn_;
 };
 
 /// Draws edges for packets that are close to each other: most edges of a cell are culled once for all of them.

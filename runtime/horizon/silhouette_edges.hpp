@@ -115,6 +115,7 @@ class BorderEnds {
 
   [[nodiscard]] const End& end(std::size_t n) const { return ends_[n]; }
   [[nodiscard]] std::size_t size() const { return ends_.size(); }
+  [[nodiscard]] std::span<const End> all() const { return ends_; }
   /// For each end the least number of an end at its place.
   [[nodiscard]] std::span<const std::uint32_t> places() const { return places_; }
 

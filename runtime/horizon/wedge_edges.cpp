@@ -61,24 +61,25 @@ void EdgesInWedges::begin(EdgeLists edges, const PacketBounds& bounds, const flo
   for (InWedge& wedge : wedges_) wedge.is_known = false;
 }
 
-EdgeSpans EdgesInWedges::spans(std::size_t from) {
+RoomForSpans EdgesInWedges::room(std::size_t from) {
   return {number_.data() + from, first_.data() + from, count_.data() + from, max_slope_.data() + from};
 }
 
 void EdgesInWedges::find_spans() {
   std::size_t lanes = 0;
   for (const SilhouetteEdges* list : lists_) lanes += list->batches().size() * edges_at_once;
-  for (auto* numbers : {&number_, &first_, &count_, &found_}) numbers->resize(lanes + edges_at_once);
+  for (auto* numbers : {&number_, &found_}) numbers->resize(lanes + edges_at_once);
+  for (auto* wedges : {&first_, &count_}) wedges->resize(lanes + edges_at_once);
   max_slope_.resize(lanes + edges_at_once);
   std::size_t number = 0;
   span_count_ = 0;
   for (const SilhouetteEdges* list : lists_) {
     span_count_ += wedge_end_kernels().find_spans({list->batches(), list->role()}, static_cast<std::uint32_t>(number), bounds_,
-                                                  azimuths_.view(), minima_, spans(span_count_));
+                                                  azimuths_.view(), minima_, room(span_count_));
     number += list->batches().size() * edges_at_once;
   }
   // Those that fill up reach into no wedge
-  std::fill_n(count_.begin() + static_cast<std::ptrdiff_t>(span_count_), edges_at_once, 0U);
+  std::fill_n(count_.begin() + static_cast<std::ptrdiff_t>(span_count_), edges_at_once, 0);
   has_spans_ = true;
 }
 
@@ -87,7 +88,7 @@ const EdgesInWedges::InWedge& EdgesInWedges::reaching(std::size_t wedge) {
   if (w.is_known) return w;
   w.is_known = true;
   if (!has_spans_) find_spans();
-  w.size = wedge_end_kernels().list_reaching(spans(0), span_count_, static_cast<std::uint32_t>(wedge),
+  w.size = wedge_end_kernels().list_reaching(spans(), span_count_, static_cast<std::uint32_t>(wedge),
                                              static_cast<std::uint32_t>(wedges_.size()), minima_[wedge], found_.data());
   w.edges.resize((w.size + edges_at_once - 1) / edges_at_once);
   for (std::size_t n = 0; n < w.edges.size() * edges_at_once; ++n) copy(found_[std::min(n, w.size - 1)], n, w);
@@ -96,7 +97,7 @@ const EdgesInWedges::InWedge& EdgesInWedges::reaching(std::size_t wedge) {
 
 void EdgesInWedges::mark_reached(std::span<std::uint8_t> wedges) {
   if (!has_spans_) find_spans();
-  wedge_end_kernels().mark_reached(spans(0), span_count_, minima_, static_cast<std::uint32_t>(wedges.size()), wedges.data());
+  wedge_end_kernels().mark_reached(spans(), span_count_, minima_, static_cast<std::uint32_t>(wedges.size()), wedges.data());
 }
 
 void EdgesInWedges::copy(std::uint32_t number, std::size_t to, InWedge& wedge) const {

@@ -58,7 +58,8 @@ class EdgesInWedges {
 
  private:
   void find_spans();
-  [[nodiscard]] EdgeSpans spans(std::size_t from);
+  [[nodiscard]] EdgeSpans spans() const { return {number_.data(), first_.data(), count_.data(), max_slope_.data()}; }
+  [[nodiscard]] RoomForSpans room(std::size_t from);
   void copy(std::uint32_t number, std::size_t to, InWedge& wedge) const;
 
   const AzimuthSampling& azimuths_;
@@ -68,7 +69,8 @@ class EdgesInWedges {
   bool has_spans_ = false;
   std::size_t span_count_ = 0;
   std::vector<InWedge> wedges_;
-  std::vector<std::uint32_t> number_, first_, count_, found_;
+  std::vector<std::uint32_t> number_, found_;
+  std::vector<std::int32_t> first_, count_;
   std::vector<float> max_slope_;
 };
 

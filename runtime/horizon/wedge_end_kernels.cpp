@@ -37,10 +37,6 @@ FARLOD_LANES EdgeReach reach_of_ends(const EndBatch& ends, const CenteredBox& bo
   return reach;
 }
 
-FARLOD_LANES std::uint32_t within_turn(std::uint32_t k, std::uint32_t turn) {
-  return k >= 2 * turn ? k - 2 * turn : k >= turn ? k - turn : k;
-}
-
 /// A slope that an end is not steeper than, whatever rounding says.
 FARLOD_LANES Floats slope_of_end(const Floats& rise, const Floats& square) {
   return (1.00001F * rise) / sqrt(max(square, broadcast(1e-12F)));
@@ -175,19 +171,19 @@ void find_lower(const float* slopes, std::size_t azimuths, const LowerHorizons& 
 
 /// Appends an edge that is steeper than the least of some wedge that it reaches into.
 FARLOD_LANES void append_span(std::uint32_t number, float max_slope, std::uint32_t from, std::uint32_t to, const AzimuthView& a,
-                              const float* minima, const EdgeSpans& spans, std::size_t& size) {
+                              const float* minima, const RoomForSpans& spans, std::size_t& size) {
   const bool is_near = max_slope == EdgeReach::unbounded;
   const std::uint32_t begin = is_near ? 0 : a.first_of_slot[from] - 1, end = is_near ? a.size : a.first_of_slot[to];
   const std::uint32_t first = within_turn(begin, a.size), count = std::min(end - begin, a.size);
   if (!(max_slope > least_of_run(minima, a.size, first, count))) return;
   spans.number[size] = number;
-  spans.first[size] = first;
-  spans.count[size] = count;
+  spans.first[size] = static_cast<std::int32_t>(first);
+  spans.count[size] = static_cast<std::int32_t>(count);
   spans.max_slope[size++] = max_slope;
 }
 
 std::size_t find_spans(const EdgeBatches& edges, std::uint32_t number, const PacketBounds& bounds, const AzimuthView& a,
-                       const float* minima, const EdgeSpans& spans) {
+                       const float* minima, const RoomForSpans& spans) {
   std::size_t size = 0;
   for (const SilhouetteEdges::Batch& batch : edges.batches) {
     const EdgeReach reach = reach_of(batch, bounds);
@@ -203,21 +199,87 @@ std::size_t find_spans(const EdgeBatches& edges, std::uint32_t number, const Pac
   return size;
 }
 
+/// The spans of sixteen edges from one on that reach into a wedge and may be steeper than a slope: a bit for each.
+FARLOD_LANES std::uint32_t reaching_spans(const EdgeSpans& s, std::size_t first, std::int32_t wedge, std::int32_t wedges,
+                                          float slope) {
+  const Ints behind = wedge - load(s.first + first), ahead = choose(behind < 0, behind + wedges, behind);
+  return bits_of(ahead < load(s.count + first)) & bits_of(load(s.max_slope + first) > slope);
+}
+
 std::size_t list_reaching(const EdgeSpans& s, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,
                           std::uint32_t* numbers) {
   std::size_t count = 0;
-  for (std::size_t first = 0; first < edges; first += lane_count) {
-    std::uint32_t reaching[lane_count];
-    for (std::size_t m = 0; m < lane_count; ++m) {
-      const std::size_t n = first + m;
-      const std::uint32_t ahead = wedge - s.first[n] + (wedge < s.first[n] ? wedges : 0U);
-      reaching[m] = static_cast<std::uint32_t>(ahead < s.count[n]) & static_cast<std::uint32_t>(s.max_slope[n] > slope);
-    }
-    std::uint32_t bits = 0;
-    for (std::size_t m = 0; m < lane_count; ++m) bits |= reaching[m] << m;
-    for (; bits != 0; bits &= bits - 1) numbers[count++] = s.number[first + static_cast<std::uint32_t>(__builtin_ctz(bits))];
-  }
+  for (std::size_t first = 0; first < edges; first += lane_count)
+    for (std::uint32_t bits =
+             reaching_spans(s, first, static_cast<std::int32_t>(wedge), static_cast<std::int32_t>(wedges), slope);
+         bits != 0; bits &= bits - 1)
+      numbers[count++] = s.number[first + static_cast<std::uint32_t>(__builtin_ctz(bits))];
   return count;
+}
+
+FARLOD_LANES void put(std::span<const BorderEnds::End> ends, std::size_t number, std::size_t lane, WedgeEdges& edges) {
+  const BorderEnds::End *a = &ends[2 * number], *b = a + 1;
+  edges.ax[lane] = a->p.x;
+  edges.ay[lane] = a->p.y;
+  edges.az[lane] = a->p.z;
+  edges.bx[lane] = b->p.x;
+  edges.by[lane] = b->p.y;
+  edges.bz[lane] = b->p.z;
+}
+
+/// The slopes of sixteen edges along a direction d; 0 where it passes them.
+FARLOD_LANES Floats slopes_along(const WedgeEdges& e, const LookInWedge& look) {
+  // Edges that are seen end-on have no width
+  constexpr float min_sine = 1e-5F;
+  const Floats px = load(e.ax) - look.x, py = load(e.ay) - look.y, pz = load(e.az) - look.z;
+  const Floats qx = load(e.bx) - look.x, qy = load(e.by) - look.y, qz = load(e.bz) - look.z;
+  const Floats cross = px * qy - py * qx, squares = (px * px + py * py) * (qx * qx + qy * qy);
+  const Floats inverse = choose(cross * cross > min_sine * min_sine * squares, 1.0F / cross, broadcast(0.0F));
+  // d meets what is between both ends where p × d and d × q have the sign of p × q
+  const Floats u = (px * look.sine - py * look.cosine) * inverse, v = (qy * look.cosine - qx * look.sine) * inverse;
+  return choose(min(u, v) >= 0.0F, pz * v + qz * u, broadcast(0.0F));
+}
+
+/// The highest edge of each lane, of two at the same slope the one with the lower number.
+struct HighestOfLanes {
+  Floats slope;
+  Ints number;
+
+  FARLOD_LANES void take(const Floats& other, const Ints& number_of_other) {
+    const Ints lower = choose(other == slope, min(number_of_other, number), number);
+    number = choose(other > slope, number_of_other, lower);
+    slope = max(other, slope);
+  }
+  [[nodiscard]] FARLOD_LANES HighestBorder of_all() const {
+    const float highest = max_lane(slope);
+    const std::array numbers = to_array(number);
+    std::int32_t lowest_number = std::numeric_limits<std::int32_t>::max();
+    for (std::uint32_t bits = bits_of(slope == highest); bits != 0; bits &= bits - 1)
+      lowest_number = std::min(lowest_number, numbers[static_cast<std::size_t>(__builtin_ctz(bits))]);
+    return {highest, lowest_number};
+  }
+};
+
+HighestBorder find_highest(const EdgeSpans& s, std::size_t edges, std::span<const BorderEnds::End> ends,
+                           const LookInWedge& look) {
+  HighestOfLanes highest{broadcast(look.above), broadcast(-1)};
+  WedgeEdges some{};
+  std::int32_t numbers[lane_count]{};
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < edges; first += lane_count)
+    for (std::uint32_t bits =
+             reaching_spans(s, first, static_cast<std::int32_t>(look.wedge), static_cast<std::int32_t>(look.wedges), look.above);
+         bits != 0; bits &= bits - 1) {
+      const std::uint32_t number = s.number[first + static_cast<std::uint32_t>(__builtin_ctz(bits))];
+      put(ends, number, count, some);
+      numbers[count++] = static_cast<std::int32_t>(number);
+      if (count < lane_count) continue;
+      highest.take(slopes_along(some, look), load(numbers));
+      count = 0;
+    }
+  // Lanes of those that were before are no harm
+  highest.take(slopes_along(some, look), load(numbers));
+  return highest.of_all();
 }
 
 FARLOD_LANES void mark_steeper(float slope, const float* least, std::size_t first, std::size_t end, std::uint8_t* wedges) {
@@ -226,7 +288,7 @@ FARLOD_LANES void mark_steeper(float slope, const float* least, std::size_t firs
 
 void mark_reached(const EdgeSpans& s, std::size_t edges, const float* minima, std::uint32_t turn, std::uint8_t* wedges) {
   for (std::size_t n = 0; n < edges; ++n) {
-    const std::uint32_t first = s.first[n], end = first + s.count[n];
+    const auto first = static_cast<std::uint32_t>(s.first[n]), end = first + static_cast<std::uint32_t>(s.count[n]);
     mark_steeper(s.max_slope[n], minima, first, std::min(end, turn), wedges);
     if (end > turn) mark_steeper(s.max_slope[n], minima, 0, end - turn, wedges);
   }
@@ -236,7 +298,7 @@ void mark_reached(const EdgeSpans& s, std::size_t edges, const float* minima, st
 
 namespace FARLOD_TARGET {
 extern const WedgeEndKernels wedge_end_kernels;
-constexpr WedgeEndKernels wedge_end_kernels{find_lower, raise_tops, find_spans, list_reaching, mark_reached};
+constexpr WedgeEndKernels wedge_end_kernels{find_lower, raise_tops, find_spans, list_reaching, find_highest, mark_reached};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

@@ -10,9 +10,8 @@
 #include "horizon/kernels.hpp"
 #include "horizon/receiver_packet.hpp"
 
-/// The inner loops of bounds that hold between the azimuths. A *wedge* leads from an azimuth to the next one, and has the number
-/// of its first azimuth. Rows of wedges are arrays float[wedge][receiver], as those of horizons. docs/concepts.md, "The sky of a
-/// wedge".
+/// The inner loops of bounds that hold between the azimuths. Rows of wedges are arrays float[wedge][receiver], as those of
+/// horizons. docs/concepts.md, "The sky of a wedge".
 namespace farlod {
 
 /// What all wedges of even azimuths have in common.
@@ -34,11 +33,19 @@ struct EndBatch {
 struct LowerHorizons {
   float *rows, *minima;
 };
-/// For each of some edges its number, the wedges that it reaches into for some receiver, so many from the first on, around the
-/// turn; and a slope that it is nowhere steeper than.
-struct EdgeSpans {
-  std::uint32_t *number, *first, *count;
-  float* max_slope;
+/// Sixteen edges that may reach into a wedge.
+struct WedgeEdges {
+  alignas(64) float ax[16], ay[16], az[16], bx[16], by[16], bz[16];
+};
+/// A receiver looks in a direction within a wedge, above a slope.
+struct LookInWedge {
+  std::uint32_t wedge, wedges;
+  float x, y, z, cosine, sine, above;
+};
+/// The border that is highest there, by its number; −1 if there is none.
+struct HighestBorder {
+  float slope;
+  std::int32_t number;
 };
 struct WedgeEndKernels {
   /// Finds them from the horizons at the azimuths.
@@ -49,11 +56,15 @@ struct WedgeEndKernels {
   /// The spans of the edges that may be steeper than the least of all receivers (LowerHorizons::minima) in some wedge. They are
   /// numbered from a number on, sixteen a batch. Returns how many there are.
   std::size_t (*find_spans)(const EdgeBatches& edges, std::uint32_t number, const PacketBounds& bounds,
-                            const AzimuthView& azimuths, const float* minima, const EdgeSpans& spans);
+                            const AzimuthView& azimuths, const float* minima, const RoomForSpans& spans);
   /// Lists the edges that reach into a wedge and may be steeper than a slope: their numbers. Returns how many. Spans up to the
   /// next multiple of 16 are read: they reach into no wedge.
   std::size_t (*list_reaching)(const EdgeSpans& spans, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,
                                std::uint32_t* numbers);
+  /// The highest of those of the edges that reach into the wedge. Their ends are those of their numbers (BorderEnds). Of two at
+  /// the same slope it is the one with the lower number, in whatever order they are.
+  HighestBorder (*find_highest)(const EdgeSpans& spans, std::size_t edges, std::span<const BorderEnds::End> ends,
+                                const LookInWedge& look);
   /// Marks the wedges into which edges reach that may be steeper there than the least of all receivers.
   void (*mark_reached)(const EdgeSpans& spans, std::size_t edges, const float* minima, std::uint32_t wedges, std::uint8_t* marks);
 };
@@ -110,10 +121,6 @@ struct PairsAnswer {
 /// The most sky in their gaps, in radians; and a slope below which both edges hide all of the wedge.
 struct GapsOfPairs {
   alignas(64) float most[16], lid[16];
-};
-/// Sixteen edges that may reach into a wedge.
-struct WedgeEdges {
-  alignas(64) float ax[16], ay[16], az[16], bx[16], by[16], bz[16];
 };
 /// A receiver's wedge, and heights in its picture plane at τ = 0, `turn` and the tangent of its angle.
 struct WedgeEye {

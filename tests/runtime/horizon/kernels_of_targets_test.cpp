@@ -82,6 +82,33 @@ TEST_P(KernelsOfTargets, OpenGapsAsOnTheBaseline) {
   EXPECT_EQ(bins, expected_bins);
 }
 
+TEST_P(KernelsOfTargets, HighestBordersAsOnTheBaseline) {
+  const KernelTarget& baseline = runnable_kernels().back();
+  RandomPlaces random;
+  std::vector<HorizonEdge> edges;
+  for (int n = 0; n < 400; ++n) edges.push_back(random.edge(60.0, 0.0, 40.0));
+  const SilhouetteEdges silhouettes = silhouettes_of(edges);
+  const SilhouetteEdges* const list = &silhouettes;
+  const BorderEnds ends({&list, 1});
+  const AzimuthSampling azimuths = AzimuthSampling::even(96, {});
+  PacketHorizon horizon(azimuths, PacketHorizon::Edges::tracked);
+  const ReceiverPacket packet = packet_of(std::vector{Point3f{1.0F, 2.0F, 3.0F}});
+  horizon.raise(silhouettes, packet);
+  std::uint32_t found = 0;
+  for (std::uint32_t k = 0; k < azimuths.size(); ++k) {
+    const Point3f along = random.direction_at(0.0);
+    const std::uint32_t wedge = azimuths.around({along.x, along.y}).before;
+    const LookInWedge look{wedge, static_cast<std::uint32_t>(azimuths.size()), 1.0F, 2.0F, 3.0F, along.x, along.y, 0.1F};
+    const auto highest = [&](const KernelTarget& target) {
+      return target.wedge_end->find_highest(horizon.drawn().spans(), horizon.drawn().size(), ends.all(), look);
+    };
+    EXPECT_EQ(highest(GetParam()).slope, highest(baseline).slope);
+    EXPECT_EQ(highest(GetParam()).number, highest(baseline).number);
+    found += highest(baseline).number >= 0 ? 1 : 0;
+  }
+  EXPECT_GT(found, 80U) << "too few to tell";
+}
+
 TEST_P(KernelsOfTargets, FacingEdgesAsOnTheBaseline) {
   const KernelTarget& baseline = runnable_kernels().back();
   RandomPlaces random;

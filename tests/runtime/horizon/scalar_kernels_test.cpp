@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "farlod/angle.hpp"
+#include "horizon/drawn_edges.hpp"
 #include "horizon/kernels.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "tests/runtime/horizon/kernel_targets.hpp"
@@ -96,8 +97,10 @@ TEST_P(ScalarKernels, HorizonsRaisedToEdges) {
       Rows slopes(azimuths_.size()), unnumbered = slopes;
       Numbers numbers(azimuths_.size());
       const auto raise = [&](Rows& raised_slopes, std::int32_t* edge_numbers) {
-        edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), Culling::nothing_drawn,
-                              data(raised_slopes), edge_numbers);
+        DrawnEdges drawn;
+        (void)edge().raise_to_edges(
+            {silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), Culling::nothing_drawn,
+            {data(raised_slopes), edge_numbers, drawn.room_for(silhouettes_of_role.batches().size() * lanes)});
       };
       raise(slopes, numbers.front().data());
       raise(unnumbered, nullptr);
@@ -132,8 +135,8 @@ TEST_P(ScalarKernels, HorizonsDoNotDependOnCulling) {
       for (std::size_t l = 0; l < lanes; ++l) wanted[k][l] = scalar::raised(0.0F, edges, place(packet, l), bounds, azimuth(k));
     for (const Culling culling : {Culling::nothing_drawn, Culling::mostly_drawn, Culling::mostly_seen}) {
       Rows slopes(azimuths_.size());
-      edge().raise_to_edges({grounded.batches(), EdgeRole::grounded}, packet, bounds, azimuths_.view(), culling, data(slopes),
-                            nullptr);
+      (void)edge().raise_to_edges({grounded.batches(), EdgeRole::grounded}, packet, bounds, azimuths_.view(), culling,
+                                  {data(slopes)});
       EXPECT_EQ(slopes, wanted) << n << ", " << static_cast<int>(culling);
     }
   }
