@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "horizon/wedge_kernels.hpp"
 
 namespace farlod {
 namespace {
@@ -23,11 +24,11 @@ constexpr float least_gap_rad = 2e-4F;
 /// Facets below a gap are looked at no farther down than to this share of the slope that it begins at.
 constexpr float least_lid = 0.7F;
 
-/// A horizon with borders of the far city, too. `both` is room for it.
+/// A horizon with borders of the far city, too. `both` is room for it, and its drawn() are these borders.
 const PacketHorizon& with_far(const PacketHorizon& near, const SilhouetteEdges& far, const ReceiverPacket& receivers,
                               PacketHorizon& both) {
   if (far.empty()) return near;
-  both = near;
+  both.begin_above(near);
   both.raise(far, receivers);
   return both;
 }
@@ -43,11 +44,11 @@ CertainSky::CertainSky(const AzimuthSampling& azimuths, SkyWeight weight, const 
       weight_(weight),
       wanted_(wanted_width),
       group_(azimuths),
-      envelope_(azimuths, weight),
+      envelope_(azimuths, weight, silhouettes.upper_ends),
       wedge_gaps_(azimuths),
       upper_(azimuths, PacketHorizon::Edges::tracked),
       lower_(azimuths),
-      edges_in_wedges_(azimuths),
+      above_far_(azimuths, PacketHorizon::Edges::tracked),
       reached_(azimuths.size()) {}
 
 void CertainSky::keep(const AllowedError& allowed) {
@@ -59,17 +60,11 @@ void CertainSky::begin(std::span<const ReceiverPacket> packets, std::span<const 
   const auto keep = [&](const SilhouetteEdges& all, SilhouetteEdges& kept) {
     group_.keep_raising(all, packets, grounded, RaisingAt::wedges, kept);
   };
-  keep(silhouettes_.grounded, grounded_);
-  keep(silhouettes_.near.overhangs, near_.overhangs);
-  keep(silhouettes_.near.undersides, near_.undersides);
+  keep(silhouettes_.near.undersides, near_undersides_);
   keep(silhouettes_.far.overhangs, far_.overhangs);
   keep(silhouettes_.far.undersides, far_.undersides);
-  const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
-  upper_places_.find(std::span(upper).first(1), silhouettes_.upper_ends);
-  upper_places_.find_further(std::span(upper).subspan(1), silhouettes_.upper_ends);
-  const std::array<const SilhouetteEdges*, 2> lower{&near_.undersides, &far_.undersides};
-  lower_places_.find(lower, lower_ends_);
-  far_places_.find(std::span(upper).last(1), silhouettes_.upper_ends);
+  lower_places_.find(numbers_of(std::array<const SilhouetteEdges*, 2>{&near_undersides_, &far_.undersides}), lower_ends_);
+  far_places_.find(numbers_of(std::array<const SilhouetteEdges*, 1>{&far_.overhangs}), silhouettes_.upper_ends);
   wedge_gaps_.begin(packets, grounded);
 }
 
@@ -83,8 +78,10 @@ double CertainSky::Open::farther_end_from(double value, std::size_t lane) const 
 CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead) {
   residual_.find_in_wedges(receivers, in_wedges_);
   envelope_.see(near.grounded(), receivers);
+  find_rising(std::array{&near.grounded().drawn()}, envelope_.least_horizons(), envelope_.size(), grounded_);
+  places_.find(grounded_.numbers(), silhouettes_.upper_ends);
   tops_.assign(envelope_.size(), {});
-  envelope_.raise_to_ends(upper_places_.batches(), tops_);
+  envelope_.raise_to_ends(places_.batches(), tops_);
   Open open;
   open.gaps = most_in_gaps(near, receivers, overhead.below);
   list_gaps(near, receivers, open, overhead);
@@ -111,7 +108,7 @@ void CertainSky::find_far_tops(const NearHorizons& near, const ReceiverPacket& r
   far_tops_.assign(envelope_.size(), {});
   if (far_.overhangs.empty()) return;
   envelope_.raise_to_ends(far_places_.batches(), far_tops_);
-  const PacketHorizon &grounded = near.grounded(), &drawn = with_far(grounded, far_.overhangs, receivers, upper_);
+  const PacketHorizon &grounded = near.grounded(), &drawn = with_far(grounded, far_.overhangs, receivers, above_far_);
   for (std::size_t k = 0; k < envelope_.size(); ++k)
     for (std::size_t l = 0; l < packet_lanes; ++l) {
       float& top = far_tops_[k][l];
@@ -177,12 +174,22 @@ double CertainSky::term_of(double sky, std::size_t wedge, const ReceiverPacket& 
 }
 
 PacketEnvelope::Bounds CertainSky::sky_above_borders(const NearHorizons& near, const ReceiverPacket& receivers) {
-  const std::array<const SilhouetteEdges*, 3> upper{&grounded_, &near_.overhangs, &far_.overhangs};
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
-  if (!has_overhangs()) return envelope_.bounds({std::span(upper).first(1), tops_, silhouettes_.upper_ends}, hiding, wanted_);
-  envelope_.see(with_far(near.upper_borders(), far_.overhangs, receivers, upper_), receivers);
-  envelope_.raise_to_ends(upper_places_.further_batches(), tops_);
-  return envelope_.bounds({upper, tops_, silhouettes_.upper_ends}, hiding, wanted_);
+  overhangs_above_.clear();
+  if (has_overhangs(near)) {
+    envelope_.see(with_far(near.upper_borders(), far_.overhangs, receivers, upper_), receivers);
+    find_rising(drawn_overhangs(near), envelope_.least_horizons(), envelope_.size(), overhangs_above_);
+    places_.find_further(overhangs_above_.numbers(), silhouettes_.upper_ends);
+    envelope_.raise_to_ends(places_.further_batches(), tops_);
+  }
+  return envelope_.bounds({std::array<const DrawnEdges*, 2>{&grounded_, &overhangs_above_}, tops_}, hiding, wanted_);
+}
+
+std::vector<const DrawnEdges*> CertainSky::drawn_overhangs(const NearHorizons& near) const {
+  std::vector<const DrawnEdges*> drawn;
+  if (near.has_upper_borders()) drawn.push_back(&near.upper_borders().drawn());
+  if (!far_.overhangs.empty()) drawn.push_back(&upper_.drawn());
+  return drawn;
 }
 
 CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead,
@@ -198,25 +205,26 @@ CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPa
 }
 
 PacketEnvelope::Sums CertainSky::most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below) {
-  choose_gaps(receivers, below);
+  choose_gaps(near, receivers, below);
   if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
   lower_borders_ = lower_borders(near, receivers);
-  const std::array<const SilhouetteEdges*, 1> edges{&grounded_};
-  return envelope_.most_in_gaps({edges, tops_, silhouettes_.upper_ends}, {lower_borders_, reached_});
+  return envelope_.most_in_gaps({{}, tops_}, {lower_borders_, reached_});
 }
 
 /// Where no upper border rises above the lower one of both horizons of a wedge, nothing hides more than the horizons and the far
 /// map's low bound, above which all counts as sky already. Elsewhere sky may be seen below a lower border, even below one that no
 /// horizon is lower than.
-void CertainSky::choose_gaps(const ReceiverPacket& receivers, std::uint32_t below) {
+void CertainSky::choose_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below) {
   reached_ = in_wedges_.reached_below_low;
   residual_borders_ = in_wedges_.overhang_below_low;
-  if (!has_overhangs() && below == 0) return;
+  if (!has_overhangs(near) && below == 0) return;
   may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
   if (below == 0) {
-    const std::array<const SilhouetteEdges*, 2> overhangs{&near_.overhangs, &far_.overhangs};
-    edges_in_wedges_.begin(overhangs, bounds_of(receivers), envelope_.least_horizons());
-    edges_in_wedges_.mark_reached(may_hide_);
+    // One that is not drawn, since others are higher at both azimuths of its wedges, reaches where these do
+    (void)with_far(near.upper_borders(), far_.overhangs, receivers, upper_);
+    for (const DrawnEdges* drawn : drawn_overhangs(near))
+      wedge_end_kernels().mark_reached(drawn->spans(), drawn->size(), envelope_.least_horizons(),
+                                       static_cast<std::uint32_t>(may_hide_.size()), may_hide_.data());
   }
   for (std::size_t k = 0; k < reached_.size(); ++k)
     if (may_hide_[k] != 0) reached_[k] = 1;

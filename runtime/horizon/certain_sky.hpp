@@ -71,11 +71,13 @@ class CertainSky {
     [[nodiscard]] double farther_end_from(double value, std::size_t lane) const;
   };
   /// Whether something is in the group's sight.
-  [[nodiscard]] bool has_overhangs() const { return !near_.overhangs.empty() || !far_.overhangs.empty(); }
-  [[nodiscard]] bool has_undersides() const { return !near_.undersides.empty() || !far_.undersides.empty(); }
+  [[nodiscard]] bool has_overhangs(const NearHorizons& near) const { return near.has_upper_borders() || !far_.overhangs.empty(); }
+  [[nodiscard]] bool has_undersides() const { return !near_undersides_.empty() || !far_.undersides.empty(); }
+  /// Those above a grounded horizon, near and far. The far ones are in `upper_`.
+  [[nodiscard]] std::vector<const DrawnEdges*> drawn_overhangs(const NearHorizons& near) const;
   [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below);
   /// Finds the wedges in which sky may be seen under an overhang, and the lower borders of the far map that count there.
-  void choose_gaps(const ReceiverPacket& receivers, std::uint32_t below);
+  void choose_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below);
   /// Rows of wedges, at least those of the far map.
   [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const NearHorizons& near, const ReceiverPacket& receivers);
   [[nodiscard]] Open open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead);
@@ -125,18 +127,18 @@ class CertainSky {
   PacketEnvelope envelope_;
   WedgeGaps wedge_gaps_;
   // What the group sees
-  SilhouetteEdges grounded_;
-  OverhangEdges near_, far_;
-  EndPlaces upper_places_, lower_places_;  ///< the further upper ones are those of overhangs
-  EndPlaces far_places_;                   ///< of the far city's overhangs
+  SilhouetteEdges near_undersides_{EdgeRole::underside};
+  OverhangEdges far_;
+  EndPlaces lower_places_, far_places_;  ///< of lower borders, and of the far city's overhangs
   // Working memory, kept from packet to packet
   ResidualHorizon::InWedges in_wedges_;
-  PacketHorizon upper_, lower_;
+  PacketHorizon upper_, lower_, above_far_;
+  EndPlaces places_;           ///< of upper borders; the further ones are those of overhangs
   PacketEnvelope::Rows tops_;  ///< of the upper ends that count so far
   PacketEnvelope::Rows far_tops_;
   std::vector<WedgeGaps::Gap> gaps_;
-  EdgesInWedges edges_in_wedges_;
-  std::vector<std::uint8_t> reached_;  ///< wedges in which sky may be seen under an overhang
+  DrawnEdges grounded_, overhangs_above_;  ///< those that may rise in some wedge
+  std::vector<std::uint8_t> reached_;      ///< wedges in which sky may be seen under an overhang
   std::vector<std::uint8_t> may_hide_;
   std::vector<PacketHorizon::Row> chosen_borders_;
   std::span<const PacketHorizon::Row> residual_borders_;  ///< rows of wedges: the far map's

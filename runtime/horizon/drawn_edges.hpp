@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "horizon/kernels.hpp"
@@ -28,6 +29,7 @@ class DrawnEdges {
   ~DrawnEdges() = default;
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::span<const std::uint32_t> numbers() const { return std::span(number_).first(size_); }
   /// Sixteen more can be read behind the last one: they reach into no wedge.
   [[nodiscard]] EdgeSpans spans() const { return {number_.data(), first_.data(), count_.data(), max_slope_.data()}; }
   void clear() { resize(0); }

@@ -89,6 +89,8 @@ class NearHorizons {
   void draw(const PacketHorizon& grounded, const OverhangEdges& near, const ReceiverPacket& receivers);
 
   [[nodiscard]] const PacketHorizon& grounded() const { return grounded_; }
+  [[nodiscard]] bool has_upper_borders() const { return has_upper_; }
+  /// Without any, the grounded horizon. Its drawn() are the borders alone.
   [[nodiscard]] const PacketHorizon& upper_borders() const { return has_upper_ ? upper_ : grounded_; }
   [[nodiscard]] const PacketHorizon& lower_borders() const { return has_lower_ ? lower_ : grounded_; }
 

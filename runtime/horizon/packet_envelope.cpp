@@ -32,11 +32,12 @@ Point3d normal_of(const ReceiverPacket& r, std::size_t lane) { return {r.normal_
 
 }  // namespace
 
-PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight)
+PacketEnvelope::PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight, const BorderEnds& ends)
     : azimuths_(azimuths),
       weight_(weight),
+      ends_(ends),
       shape_(shape_of(azimuths.size())),
-      edges_(azimuths),
+      edges_(azimuths, ends),
       none_(azimuths.size()),
       own_slopes_(azimuths.size()),
       own_numbers_(azimuths.size() * packet_lanes),
@@ -81,7 +82,7 @@ PacketEnvelope::Eye PacketEnvelope::eye_of(const Occluders& occluders, const Hid
 
 PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, double wanted) {
   const ReceiverPacket& r = *receivers_;
-  edges_.begin(occluders.edges, bounds_of(r), minima_.data());
+  edges_.begin(occluders.edges, minima_.data());
   const SimpleSums simple = sum_simple(occluders, hiding);
   list_doubtful_wedges(nullptr);
   Bounds bounds;
@@ -213,7 +214,7 @@ void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, Wedg
 void PacketEnvelope::put_edge(const Eye& eye, std::int32_t number, std::size_t k, std::size_t n, EdgesSeen& edges) const {
   if (number < 0) return put_plane(eye, number, k, n, edges);
   const auto end = 2 * static_cast<std::size_t>(number);
-  const Point3f &a = eye.occluders.ends_of_numbers.end(end).p, &b = eye.occluders.ends_of_numbers.end(end + 1).p;
+  const Point3f &a = ends_.end(end).p, &b = ends_.end(end + 1).p;
   edges.px[n] = a.x - eye.p.x;
   edges.py[n] = a.y - eye.p.y;
   edges.pz[n] = a.z - eye.p.z;
@@ -340,7 +341,7 @@ void PacketEnvelope::add_edges(const Eye& eye, const EdgesInWedges::InWedge& edg
   const auto add_number = [&](std::int32_t number) {
     if (number < 0) return;
     const auto end = 2 * static_cast<std::size_t>(number);
-    const Point3f &a = eye.occluders.ends_of_numbers.end(end).p, &b = eye.occluders.ends_of_numbers.end(end + 1).p;
+    const Point3f &a = ends_.end(end).p, &b = ends_.end(end + 1).p;
     envelope_.add(Point3d{a.x, a.y, a.z} - p, Point3d{b.x, b.y, b.z} - p);
   };
   add_number(number_at(k, eye.lane));

@@ -30,8 +30,8 @@ class PacketEnvelope {
   using Sums = std::array<double, ReceiverPacket::lanes>;
   static constexpr std::size_t least_azimuths = 8;
 
-  /// The azimuths are even, at least so many, and outlive it.
-  PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight);
+  /// The azimuths are even, at least so many. `ends` has the numbers of all edges. Both must outlive it.
+  PacketEnvelope(const AzimuthSampling& azimuths, SkyWeight weight, const BorderEnds& ends);
 
   /// Begins with a horizon of edges alone, which it tracks. All that follows is above it; both must outlive that.
   void see(const PacketHorizon& horizon, const ReceiverPacket& receivers);
@@ -53,9 +53,8 @@ class PacketEnvelope {
   struct Occluders {
     /// The edges of the horizon, which hide all that is below them; without those that are no higher than it in any of their
     /// wedges.
-    EdgeLists edges;
+    DrawnLists edges;
     std::span<const Row> tops;  ///< of their ends, as raise_to_ends() makes them
-    const BorderEnds& ends_of_numbers;
   };
   /// What hides the sky besides, in rows of wedges: below `least` no sky is seen, and above `most` nothing hides it.
   struct Hiding {
@@ -166,6 +165,7 @@ class PacketEnvelope {
 
   const AzimuthSampling& azimuths_;
   SkyWeight weight_;
+  const BorderEnds& ends_;
   std::vector<Wedge> wedges_;
   WedgeShape shape_{};
   WedgeEnvelope envelope_;

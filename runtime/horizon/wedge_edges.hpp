@@ -9,26 +9,27 @@
 
 #include "farlod/point.hpp"
 #include "horizon/azimuth_sampling.hpp"
-#include "horizon/receiver_packet.hpp"
+#include "horizon/drawn_edges.hpp"
 #include "horizon/silhouette_edges.hpp"
 #include "horizon/wedge_kernels.hpp"
 
 namespace farlod {
 
-using EdgeLists = std::span<const SilhouetteEdges* const>;
+/// The numbers of all edges of some lists.
+[[nodiscard]] std::vector<std::uint32_t> numbers_of(std::span<const SilhouetteEdges* const> lists);
 
 /// The places where edges end, each once.
 class EndPlaces {
  public:
-  /// The ends of the edges, as their numbers find them.
-  void find(EdgeLists edges, const BorderEnds& ends);
+  /// The ends of the edges with these numbers.
+  void find(std::span<const std::uint32_t> numbers, const BorderEnds& ends);
   /// Those of further edges that are at other places.
-  void find_further(EdgeLists edges, const BorderEnds& ends);
+  void find_further(std::span<const std::uint32_t> numbers, const BorderEnds& ends);
   [[nodiscard]] std::span<const EndBatch> batches() const { return std::span(batches_).first(first_further_); }
   [[nodiscard]] std::span<const EndBatch> further_batches() const { return std::span(batches_).subspan(first_further_); }
 
  private:
-  void add(EdgeLists edges, const BorderEnds& ends);
+  void add(std::span<const std::uint32_t> numbers, const BorderEnds& ends);
   void add(const Point3f& p);
 
   std::vector<EndBatch> batches_;
@@ -37,14 +38,20 @@ class EndPlaces {
   std::uint32_t stamp_ = 0;
 };
 
+/// What was drawn for a packet, list by list.
+using DrawnLists = std::span<const DrawnEdges* const>;
+
+/// Those that may rise above the least horizon of some wedge: LowerHorizons::minima.
+void find_rising(DrawnLists drawn, const float* minima, std::size_t wedges, DrawnEdges& rising);
+
 /// The edges that may reach into the wedges of a packet. A wedge that nobody asks for costs nothing.
 class EdgesInWedges {
  public:
-  /// The azimuths must outlive it.
-  explicit EdgesInWedges(const AzimuthSampling& azimuths) : azimuths_(azimuths), wedges_(azimuths.size()) {}
-  /// Begins a packet with these bounds and the least of its horizons: LowerHorizons::minima. All must live as long as it is
-  /// asked.
-  void begin(EdgeLists edges, const PacketBounds& bounds, const float* minima);
+  /// Both must outlive it. `ends` has the numbers of the edges.
+  EdgesInWedges(const AzimuthSampling& azimuths, const BorderEnds& ends) : ends_(ends), wedges_(azimuths.size()) {}
+  /// Begins a packet with edges that were drawn for it, and the least of its horizons (LowerHorizons::minima). All must live as
+  /// long as it is asked.
+  void begin(DrawnLists drawn, const float* minima);
 
   struct InWedge {
     bool is_known = false;
@@ -53,25 +60,13 @@ class EdgesInWedges {
   };
   /// Those of a wedge that may rise above the least horizon there.
   [[nodiscard]] const InWedge& reaching(std::size_t wedge);
-  /// Marks the wedges into which some edge may rise above the least horizon.
-  void mark_reached(std::span<std::uint8_t> wedges);
 
  private:
-  void find_spans();
-  [[nodiscard]] EdgeSpans spans() const { return {number_.data(), first_.data(), count_.data(), max_slope_.data()}; }
-  [[nodiscard]] RoomForSpans room(std::size_t from);
-  void copy(std::uint32_t number, std::size_t to, InWedge& wedge) const;
-
-  const AzimuthSampling& azimuths_;
-  std::vector<const SilhouetteEdges*> lists_;
-  PacketBounds bounds_;
+  const BorderEnds& ends_;
   const float* minima_ = nullptr;
-  bool has_spans_ = false;
-  std::size_t span_count_ = 0;
+  std::vector<const DrawnEdges*> drawn_;
   std::vector<InWedge> wedges_;
-  std::vector<std::uint32_t> number_, found_;
-  std::vector<std::int32_t> first_, count_;
-  std::vector<float> max_slope_;
+  std::vector<std::uint32_t> found_;
 };
 
 }  // namespace farlod

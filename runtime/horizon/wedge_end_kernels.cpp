@@ -169,34 +169,20 @@ void find_lower(const float* slopes, std::size_t azimuths, const LowerHorizons& 
 // --- Edges in wedges
 // --------------------------------------------------------------------------------------------------------------
 
-/// Appends an edge that is steeper than the least of some wedge that it reaches into.
-FARLOD_LANES void append_span(std::uint32_t number, float max_slope, std::uint32_t from, std::uint32_t to, const AzimuthView& a,
-                              const float* minima, const RoomForSpans& spans, std::size_t& size) {
-  const bool is_near = max_slope == EdgeReach::unbounded;
-  const std::uint32_t begin = is_near ? 0 : a.first_of_slot[from] - 1, end = is_near ? a.size : a.first_of_slot[to];
-  const std::uint32_t first = within_turn(begin, a.size), count = std::min(end - begin, a.size);
-  if (!(max_slope > least_of_run(minima, a.size, first, count))) return;
-  spans.number[size] = number;
-  spans.first[size] = static_cast<std::int32_t>(first);
-  spans.count[size] = static_cast<std::int32_t>(count);
-  spans.max_slope[size++] = max_slope;
-}
-
-std::size_t find_spans(const EdgeBatches& edges, std::uint32_t number, const PacketBounds& bounds, const AzimuthView& a,
-                       const float* minima, const RoomForSpans& spans) {
-  std::size_t size = 0;
-  for (const SilhouetteEdges::Batch& batch : edges.batches) {
-    const EdgeReach reach = reach_of(batch, bounds);
-    const std::array from = to_array(truncate(reach.from * a.slots)), to = to_array(truncate(reach.to * a.slots) + 1);
-    const std::array max_slope = to_array(reach.max_slope);
-    for (std::uint32_t seen = seen_edges(reach); seen != 0; seen &= seen - 1) {
-      const auto m = static_cast<std::uint32_t>(__builtin_ctz(seen));
-      append_span(number + m, max_slope[m], static_cast<std::uint32_t>(from[m]), static_cast<std::uint32_t>(to[m]), a, minima,
-                  spans, size);
-    }
-    number += static_cast<std::uint32_t>(lane_count);
+std::size_t keep_rising(const EdgeSpans& s, std::size_t edges, const float* minima, std::uint32_t turn,
+                        const RoomForSpans& kept) {
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < edges; ++n) {
+    // Without a branch: one that is not kept is written over
+    kept.number[count] = s.number[n];
+    kept.first[count] = s.first[n];
+    kept.count[count] = s.count[n];
+    kept.max_slope[count] = s.max_slope[n];
+    const float least =
+        least_of_run(minima, turn, static_cast<std::uint32_t>(s.first[n]), static_cast<std::uint32_t>(s.count[n]));
+    count += s.max_slope[n] > least ? 1 : 0;
   }
-  return size;
+  return count;
 }
 
 /// The spans of sixteen edges from one on that reach into a wedge and may be steeper than a slope: a bit for each.
@@ -215,16 +201,6 @@ std::size_t list_reaching(const EdgeSpans& s, std::size_t edges, std::uint32_t w
          bits != 0; bits &= bits - 1)
       numbers[count++] = s.number[first + static_cast<std::uint32_t>(__builtin_ctz(bits))];
   return count;
-}
-
-FARLOD_LANES void put(std::span<const BorderEnds::End> ends, std::size_t number, std::size_t lane, WedgeEdges& edges) {
-  const BorderEnds::End *a = &ends[2 * number], *b = a + 1;
-  edges.ax[lane] = a->p.x;
-  edges.ay[lane] = a->p.y;
-  edges.az[lane] = a->p.z;
-  edges.bx[lane] = b->p.x;
-  edges.by[lane] = b->p.y;
-  edges.bz[lane] = b->p.z;
 }
 
 /// The slopes of sixteen edges along a direction d; 0 where it passes them.
@@ -271,7 +247,7 @@ HighestBorder find_highest(const EdgeSpans& s, std::size_t edges, std::span<cons
              reaching_spans(s, first, static_cast<std::int32_t>(look.wedge), static_cast<std::int32_t>(look.wedges), look.above);
          bits != 0; bits &= bits - 1) {
       const std::uint32_t number = s.number[first + static_cast<std::uint32_t>(__builtin_ctz(bits))];
-      put(ends, number, count, some);
+      some.put(count, ends[2 * std::size_t{number}].p, ends[2 * std::size_t{number} + 1].p);
       numbers[count++] = static_cast<std::int32_t>(number);
       if (count < lane_count) continue;
       highest.take(slopes_along(some, look), load(numbers));
@@ -298,7 +274,7 @@ void mark_reached(const EdgeSpans& s, std::size_t edges, const float* minima, st
 
 namespace FARLOD_TARGET {
 extern const WedgeEndKernels wedge_end_kernels;
-constexpr WedgeEndKernels wedge_end_kernels{find_lower, raise_tops, find_spans, list_reaching, find_highest, mark_reached};
+constexpr WedgeEndKernels wedge_end_kernels{find_lower, raise_tops, keep_rising, list_reaching, find_highest, mark_reached};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

@@ -36,6 +36,16 @@ struct LowerHorizons {
 /// Sixteen edges that may reach into a wedge.
 struct WedgeEdges {
   alignas(64) float ax[16], ay[16], az[16], bx[16], by[16], bz[16];
+
+  // In kernels, it must not be emitted on its own
+  [[gnu::always_inline]] void put(std::size_t lane, const Point3f& a, const Point3f& b) {
+    ax[lane] = a.x;
+    ay[lane] = a.y;
+    az[lane] = a.z;
+    bx[lane] = b.x;
+    by[lane] = b.y;
+    bz[lane] = b.z;
+  }
 };
 /// A receiver looks in a direction within a wedge, above a slope.
 struct LookInWedge {
@@ -53,10 +63,10 @@ struct WedgeEndKernels {
   /// tops = max(tops, the slope of each end), in the wedge where each receiver sees it: at least where that is above `lower`.
   void (*raise_tops)(std::span<const EndBatch> ends, const ReceiverPacket& receivers, const CenteredBox& box,
                      const AzimuthView& azimuths, const LowerHorizons& lower, float* tops);
-  /// The spans of the edges that may be steeper than the least of all receivers (LowerHorizons::minima) in some wedge. They are
-  /// numbered from a number on, sixteen a batch. Returns how many there are.
-  std::size_t (*find_spans)(const EdgeBatches& edges, std::uint32_t number, const PacketBounds& bounds,
-                            const AzimuthView& azimuths, const float* minima, const RoomForSpans& spans);
+  /// Keeps the spans of edges that may be steeper than the least of all receivers (LowerHorizons::minima) in some wedge that they
+  /// reach into. Returns how many there are.
+  std::size_t (*keep_rising)(const EdgeSpans& spans, std::size_t edges, const float* minima, std::uint32_t wedges,
+                             const RoomForSpans& kept);
   /// Lists the edges that reach into a wedge and may be steeper than a slope: their numbers. Returns how many. Spans up to the
   /// next multiple of 16 are read: they reach into no wedge.
   std::size_t (*list_reaching)(const EdgeSpans& spans, std::size_t edges, std::uint32_t wedge, std::uint32_t wedges, float slope,

@@ -57,7 +57,7 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
     edges_ = silhouettes_of(edges);
     edges_.number_from(0);
     ends_of_numbers_ = BorderEnds(std::array<const SilhouetteEdges*, 1>{&edges_});
-    ends_.find(list_, ends_of_numbers_);
+    ends_.find(numbers_of(list_), ends_of_numbers_);
     horizon_ = PacketHorizon(azimuths_, PacketHorizon::Edges::tracked);
     horizon_.raise(edges_, receivers_);
     envelope_.see(horizon_, receivers_);
@@ -65,7 +65,7 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
     envelope_.raise_to_ends(ends_.batches(), tops_);
   }
 
-  [[nodiscard]] PacketEnvelope::Occluders occluders() const { return {list_, tops_, ends_of_numbers_}; }
+  [[nodiscard]] PacketEnvelope::Occluders occluders() const { return {drawn_, tops_}; }
   /// The sky of a wedge above all edges, and above a level edge across it whose ends have this slope.
   [[nodiscard]] double exact_sky(std::size_t k, std::size_t l, double slope) {
     const Wedge& w = envelope_.wedge(k);
@@ -98,7 +98,8 @@ class PacketEnvelopes : public testing::TestWithParam<EnvelopeCase> {
   BorderEnds ends_of_numbers_;
   EndPlaces ends_;
   PacketHorizon horizon_{azimuths_, PacketHorizon::Edges::tracked};
-  PacketEnvelope envelope_{azimuths_, GetParam().weight};
+  const std::array<const DrawnEdges*, 1> drawn_{&horizon_.drawn()};
+  PacketEnvelope envelope_{azimuths_, GetParam().weight, ends_of_numbers_};
   PacketEnvelope::Rows tops_;
   WedgeEnvelope exact_;
 };
@@ -212,10 +213,13 @@ std::optional<double> slope_of(const HorizonEdge& e, const Point3d& eye, const P
 }
 
 TEST_P(PacketEnvelopes, ListTheEdgesThatRiseInAWedge) {
-  EdgesInWedges in_wedges(azimuths_);
-  in_wedges.begin(list_, bounds_of(receivers_), envelope_.least_horizons());
+  EdgesInWedges in_wedges(azimuths_, ends_of_numbers_);
+  in_wedges.begin(drawn_, envelope_.least_horizons());
   std::vector<std::uint8_t> marks(envelope_.size(), 0);
-  in_wedges.mark_reached(marks);
+  wedge_end_kernels().mark_reached(drawn_[0]->spans(), drawn_[0]->size(), envelope_.least_horizons(),
+                                   static_cast<std::uint32_t>(marks.size()), marks.data());
+  DrawnEdges rising;
+  find_rising(drawn_, envelope_.least_horizons(), envelope_.size(), rising);
   std::size_t listed = 0;
   for (std::size_t k = 0; k < envelope_.size(); ++k) {
     const EdgesInWedges::InWedge& edges = in_wedges.reaching(k);
@@ -236,6 +240,7 @@ TEST_P(PacketEnvelopes, ListTheEdgesThatRiseInAWedge) {
         }
       if (highest <= 1.0001 * static_cast<double>(envelope_.least_horizons()[k])) continue;
       EXPECT_TRUE(is_listed(edges_.at(n))) << "edge " << n << ", wedge " << k;
+      EXPECT_NE(std::ranges::find(rising.numbers(), n), rising.numbers().end());
       ++listed;
     }
   }
@@ -243,8 +248,8 @@ TEST_P(PacketEnvelopes, ListTheEdgesThatRiseInAWedge) {
 }
 
 TEST_P(PacketEnvelopes, HaveALidThatTheEdgesHide) {
-  EdgesInWedges in_wedges(azimuths_);
-  in_wedges.begin(list_, bounds_of(receivers_), envelope_.least_horizons());
+  EdgesInWedges in_wedges(azimuths_, ends_of_numbers_);
+  in_wedges.begin(drawn_, envelope_.least_horizons());
   std::size_t lids = 0;
   for (std::size_t k = 0; k < envelope_.size(); ++k) {
     const EdgesInWedges::InWedge& edges = in_wedges.reaching(k);
