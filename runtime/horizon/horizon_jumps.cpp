@@ -234,7 +234,8 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
   const SkyOfBoth both{sky.above(higher_slope), sky.above(lower_slope)};
   const float size = both.lower - both.higher;
   if (size < least) return {};
-  const BordersInWedge borders{((in_recess >> lane) & 1U) != 0 ? nullptr : &horizon.drawn(), static_cast<std::uint32_t>(azimuth),
+  const bool looks = azimuths_.size() >= least_azimuths_to_look && ((in_recess >> lane) & 1U) == 0;
+  const BordersInWedge borders{looks ? &horizon.drawn() : nullptr, static_cast<std::uint32_t>(azimuth),
                                static_cast<std::uint32_t>(azimuths_.size())};
   const float correction = mean_sky(border, borders, sky, both) - half * (both.higher + both.lower);
   // (3) One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own

@@ -28,6 +28,8 @@ class HorizonJumps {
   static constexpr float least_jump_of_light = 0.01F;
   /// What comes into sight beside the end of a border is looked for where so much sky would be left to the lower horizon.
   static constexpr float least_beyond = 0.2F;
+  /// With fewer azimuths, more of them are cheaper than to look for it.
+  static constexpr std::size_t least_azimuths_to_look = 256;
 
   /// Both must outlive it. The sampling must be even, and `ends` have the numbers of the borders.
   HorizonJumps(const AzimuthSampling& azimuths, const BorderEnds& ends)

@@ -158,10 +158,10 @@ struct WallBehind {
 };
 
 TEST(HorizonJumps, ALowerWallComesIntoSightWhereAHigherOneEnds) {
-  constexpr std::size_t azimuths = 64;
+  constexpr std::size_t azimuths = HorizonJumps::least_azimuths_to_look;
   // What is seen of it is narrower than the distance of two azimuths: mostly, no azimuth meets it
   const auto walls_at = [](double by) {
-    return WallBehind{{{at(10.0 + by, 20.0), at(50.0 + by, 20.0)}, 60.0}, {{at(35.0 + by, 60.0), at(53.5 + by, 60.0)}, 70.0}};
+    return WallBehind{{{at(10.0 + by, 20.0), at(50.0 + by, 20.0)}, 60.0}, {{at(35.0 + by, 60.0), at(50.9 + by, 60.0)}, 70.0}};
   };
   const LargestErrors largest = largest_errors(azimuths, walls_at);
   EXPECT_GT(largest.even, 0.4 / azimuths);
