@@ -82,6 +82,7 @@ CertainSky::Open CertainSky::open_sky(const NearHorizons& near, const ReceiverPa
   places_.find(grounded_.numbers(), silhouettes_.upper_ends);
   tops_.assign(envelope_.size(), {});
   envelope_.raise_to_ends(places_.batches(), tops_);
+  upper_borders_ = &with_far(near.upper_borders(), far_.overhangs, receivers, upper_);
   Open open;
   open.gaps = most_in_gaps(near, receivers, overhead.below);
   list_gaps(near, receivers, open, overhead);
@@ -177,7 +178,7 @@ PacketEnvelope::Bounds CertainSky::sky_above_borders(const NearHorizons& near, c
   const PacketEnvelope::Hiding hiding{in_wedges_.least, in_wedges_.most};
   overhangs_above_.clear();
   if (has_overhangs(near)) {
-    envelope_.see(with_far(near.upper_borders(), far_.overhangs, receivers, upper_), receivers);
+    envelope_.see(*upper_borders_, receivers);
     find_rising(drawn_overhangs(near), envelope_.least_horizons(), envelope_.size(), overhangs_above_);
     places_.find_further(overhangs_above_.numbers(), silhouettes_.upper_ends);
     envelope_.raise_to_ends(places_.further_batches(), tops_);
@@ -205,23 +206,22 @@ CertainSky::Bounds CertainSky::bounds(const NearHorizons& near, const ReceiverPa
 }
 
 PacketEnvelope::Sums CertainSky::most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below) {
-  choose_gaps(near, receivers, below);
+  choose_gaps(near, below);
   if (std::find(reached_.begin(), reached_.end(), std::uint8_t{1}) == reached_.end()) return {};
   lower_borders_ = lower_borders(near, receivers);
-  return envelope_.most_in_gaps({{}, tops_}, {lower_borders_, reached_});
+  return envelope_.most_in_gaps(tops_, {lower_borders_, reached_});
 }
 
 /// Where no upper border rises above the lower one of both horizons of a wedge, nothing hides more than the horizons and the far
 /// map's low bound, above which all counts as sky already. Elsewhere sky may be seen below a lower border, even below one that no
 /// horizon is lower than.
-void CertainSky::choose_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below) {
+void CertainSky::choose_gaps(const NearHorizons& near, std::uint32_t below) {
   reached_ = in_wedges_.reached_below_low;
   residual_borders_ = in_wedges_.overhang_below_low;
   if (!has_overhangs(near) && below == 0) return;
   may_hide_.assign(reached_.size(), below != 0 ? 1 : 0);
   if (below == 0) {
     // One that is not drawn, since others are higher at both azimuths of its wedges, reaches where these do
-    (void)with_far(near.upper_borders(), far_.overhangs, receivers, upper_);
     for (const DrawnEdges* drawn : drawn_overhangs(near))
       wedge_end_kernels().mark_reached(drawn->spans(), drawn->size(), envelope_.least_horizons(),
                                        static_cast<std::uint32_t>(may_hide_.size()), may_hide_.data());

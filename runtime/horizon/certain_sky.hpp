@@ -77,7 +77,7 @@ class CertainSky {
   [[nodiscard]] std::vector<const DrawnEdges*> drawn_overhangs(const NearHorizons& near) const;
   [[nodiscard]] PacketEnvelope::Sums most_in_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below);
   /// Finds the wedges in which sky may be seen under an overhang, and the lower borders of the far map that count there.
-  void choose_gaps(const NearHorizons& near, const ReceiverPacket& receivers, std::uint32_t below);
+  void choose_gaps(const NearHorizons& near, std::uint32_t below);
   /// Rows of wedges, at least those of the far map.
   [[nodiscard]] std::span<const PacketHorizon::Row> lower_borders(const NearHorizons& near, const ReceiverPacket& receivers);
   [[nodiscard]] Open open_sky(const NearHorizons& near, const ReceiverPacket& receivers, const Overhead& overhead);
@@ -133,8 +133,9 @@ class CertainSky {
   // Working memory, kept from packet to packet
   ResidualHorizon::InWedges in_wedges_;
   PacketHorizon upper_, lower_, above_far_;
-  EndPlaces places_;           ///< of upper borders; the further ones are those of overhangs
-  PacketEnvelope::Rows tops_;  ///< of the upper ends that count so far
+  const PacketHorizon* upper_borders_ = nullptr;  ///< of the packet, near and far
+  EndPlaces places_;                              ///< of upper borders; the further ones are those of overhangs
+  PacketEnvelope::Rows tops_;                     ///< of the upper ends that count so far
   PacketEnvelope::Rows far_tops_;
   std::vector<WedgeGaps::Gap> gaps_;
   DrawnEdges grounded_, overhangs_above_;  ///< those that may rise in some wedge

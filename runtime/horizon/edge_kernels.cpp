@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "horizon/edge_crossing.hpp"
 #include "horizon/edge_culling.hpp"
 #include "horizon/kernels.hpp"
 #include "horizon/lanes.hpp"
@@ -22,11 +23,6 @@ static_assert(ReceiverPacket::lanes == lane_count && SilhouetteEdges::lanes == l
 /// The places of the receivers, one a lane.
 struct Places {
   Floats x, y, z;
-};
-
-/// One edge relative to each receiver: p = a − r and q = b − r, and 1 / (p × q) in the plan.
-struct RelativeEdge {
-  Floats px, py, pz, qx, qy, qz, inverse_cross;
 };
 
 FARLOD_LANES void set_ends(const SilhouetteEdges::Batch& edges, std::size_t lane, const Places& r, RelativeEdge& e) {
@@ -48,33 +44,19 @@ FARLOD_LANES void invert_cross(RelativeEdge& e) {
 /// On which side of an edge right above it a receiver is taken to stand.
 enum class Beside { front, back };
 
-/// The edge may be close, or above a receiver. A receiver within `min_sine` of the edge's line
+/// The edge may be close, or above a receiver. A receiver within `end_on_sine` of the edge's line
 ///   * in front of both ends, or behind both, sees the edge end-on: it has no width, and the slope 0;
 ///   * between the ends stands right below the edge: p × q is replaced as if it stood 1 mm beside it.
 /// Returns whether any receiver stands right below.
 FARLOD_LANES bool invert_cross_nearby(RelativeEdge& e, Beside side) {
-  constexpr float min_sine = 1e-5F, no_width = std::numeric_limits<float>::infinity();
+  constexpr float no_width = std::numeric_limits<float>::infinity();
   const float cross_below = side == Beside::front ? -1e-3F : 1e-3F;
-  // |p × q| = |p| |q| sine: compare squares, which takes no root
-  const Floats cross = e.px * e.qy - e.py * e.qx, squares = (e.px * e.px + e.py * e.py) * (e.qx * e.qx + e.qy * e.qy);
-  const Floats off_line = cross * cross - min_sine * min_sine * squares;
+  const Floats cross = e.px * e.qy - e.py * e.qx, off_line = off_line_of(e, cross);
   // p · q < 0: the receiver is between the ends
   const Floats is_below = min(-off_line, -(e.px * e.qx + e.py * e.qy));
   const Floats wide = choose(off_line > 0.0F, cross, broadcast(no_width));
   e.inverse_cross = 1.0F / choose(is_below > 0.0F, broadcast(cross_below), wide);
   return max_lane(is_below) > 0.0F;
-}
-
-/// Where an azimuth d meets an edge: u = (p × d) / (p × q), v = (d × q) / (p × q). The distance is 1 / (u + v), and the edge is
-/// divided as u to v; d hits it, between its ends and in front, where u ≥ 0 and v ≥ 0. The slope there is t = p_z v + q_z u.
-/// Neighboring edges share p × d of their common end, but for the sign, so that no azimuth falls between them.
-struct Crossing {
-  Floats inside, slope;  ///< min(u, v); t
-};
-FARLOD_LANES Crossing crossing_of(const RelativeEdge& e, float max_slope, float dx, float dy) {
-  const Floats u = (e.px * dy - e.py * dx) * e.inverse_cross, v = (e.qy * dx - e.qx * dy) * e.inverse_cross;
-  // For a receiver almost in line with the edge, t is mostly rounding: it never exceeds the bound of the packet
-  return {min(u, v), min(e.pz * v + e.qz * u, broadcast(max_slope))};
 }
 
 /// Horizons that rise to the edges: t_k = max(t_k, slope) where d_k hits the edge.

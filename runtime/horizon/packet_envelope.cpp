@@ -75,19 +75,19 @@ void PacketEnvelope::raise_to_ends(std::span<const EndBatch> ends, std::span<Row
                                  tops.front().data());
 }
 
-PacketEnvelope::Eye PacketEnvelope::eye_of(const Occluders& occluders, const Hiding& hiding, std::size_t l) const {
+PacketEnvelope::Eye PacketEnvelope::eye_of(std::span<const Row> tops, const Hiding& hiding, std::size_t l) const {
   const ReceiverPacket& r = *receivers_;
-  return {occluders, hiding, l, {r.x[l], r.y[l], r.z[l]}, normal_of(r, l)};
+  return {tops, hiding, l, {r.x[l], r.y[l], r.z[l]}, normal_of(r, l)};
 }
 
 PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const Hiding& hiding, double wanted) {
   const ReceiverPacket& r = *receivers_;
   edges_.begin(occluders.edges, minima_.data());
-  const SimpleSums simple = sum_simple(occluders, hiding);
+  const SimpleSums simple = sum_simple(occluders.tops, hiding);
   list_doubtful_wedges(nullptr);
   Bounds bounds;
   for (std::size_t l = 0; l < r.count; ++l) {
-    const Eye eye = eye_of(occluders, hiding, l);
+    const Eye eye = eye_of(occluders.tops, hiding, l);
     const bool looks_down = eye.normal.z < 0.0;
     double low = looks_down ? 0.0 : simple.low[l], high = looks_down ? 0.0 : simple.high[l];
     find_doubts(eye);
@@ -104,14 +104,14 @@ PacketEnvelope::Bounds PacketEnvelope::bounds(const Occluders& occluders, const 
   return bounds;
 }
 
-PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, const Gaps& gaps) {
+PacketEnvelope::Sums PacketEnvelope::most_in_gaps(std::span<const Row> tops, const Gaps& gaps) {
   wedge_sky_kernels().find_simple_gaps({slopes_, numbers_}, {gaps.borders.front().data(), gaps.reached.data()}, *receivers_,
-                                       azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(),
+                                       azimuths_.view(), shape_, wedge_weight_, others_.data(), tops.front().data(),
                                        terms_.gaps.front().data());
   list_doubtful_wedges(gaps.reached.data());
   const Hiding nothing{none_, none_};
   Sums sums{};
-  for (std::size_t l = 0; l < receivers_->count; ++l) bound_gaps(eye_of(occluders, nothing, l), gaps.borders);
+  for (std::size_t l = 0; l < receivers_->count; ++l) bound_gaps(eye_of(tops, nothing, l), gaps.borders);
   for (std::size_t k = 0; k < wedges_.size(); ++k) {
     if (gaps.reached[k] == 0) continue;
     for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(terms_.gaps[k][l]) / turn_rad;
@@ -119,14 +119,14 @@ PacketEnvelope::Sums PacketEnvelope::most_in_gaps(const Occluders& occluders, co
   return sums;
 }
 
-SimpleSums PacketEnvelope::sum_simple(const Occluders& occluders, const Hiding& hiding) {
+SimpleSums PacketEnvelope::sum_simple(std::span<const Row> tops, const Hiding& hiding) {
   SimpleSums sums;
   if (has_terms_) {
     sums.low_rows = terms_.low.front().data();
     sums.high_rows = terms_.high.front().data();
   }
   wedge_sky_kernels().sum_simple({slopes_, numbers_}, {hiding.least.front().data(), hiding.most.front().data()}, *receivers_,
-                                 azimuths_.view(), shape_, wedge_weight_, others_.data(), occluders.tops.front().data(), sums);
+                                 azimuths_.view(), shape_, wedge_weight_, others_.data(), tops.front().data(), sums);
   return sums;
 }
 
@@ -207,7 +207,7 @@ void PacketEnvelope::put_pair(const Eye& eye, std::size_t k, std::size_t n, Wedg
   pairs.sine[n] = static_cast<float>(wedges_[k].from.y);
   pairs.from[n] = slope_at(k, l);
   pairs.to[n] = slope_at(after, l);
-  pairs.top[n] = std::max(most(eye.occluders.tops, k, l), eye.hiding.most[k][l]);
+  pairs.top[n] = std::max(most(eye.tops, k, l), eye.hiding.most[k][l]);
   pairs.least[n] = eye.hiding.least[k][l];
 }
 

@@ -71,8 +71,8 @@ class PacketEnvelope {
     std::span<const Row> borders;           ///< rows of wedges: it is below them
     std::span<const std::uint8_t> reached;  ///< the wedges that count; there it may also be between edges
   };
-  /// How much sky lies between the edges and the borders, at most.
-  [[nodiscard]] Sums most_in_gaps(const Occluders& occluders, const Gaps& gaps);
+  /// How much sky lies between the edges, with these tops, and the borders, at most.
+  [[nodiscard]] Sums most_in_gaps(std::span<const Row> tops, const Gaps& gaps);
   /// How much of a wedge's gap, as that found it, lies below a slope: the sky between an edge and the slope, in radians, where
   /// that is known to the last digit.
   [[nodiscard]] float open_below(float slope, float border, std::size_t k, std::size_t lane) const {
@@ -118,15 +118,15 @@ class PacketEnvelope {
   };
   /// One receiver of the packet.
   struct Eye {
-    const Occluders& occluders;
+    std::span<const Row> tops;
     const Hiding& hiding;
     std::size_t lane;
     Point3f p;
     Point3d normal;
   };
-  [[nodiscard]] Eye eye_of(const Occluders& occluders, const Hiding& hiding, std::size_t lane) const;
+  [[nodiscard]] Eye eye_of(std::span<const Row> tops, const Hiding& hiding, std::size_t lane) const;
 
-  SimpleSums sum_simple(const Occluders& occluders, const Hiding& hiding);
+  SimpleSums sum_simple(std::span<const Row> tops, const Hiding& hiding);
   /// Those with bits, and all that are asked for who looks down.
   void list_doubtful_wedges(const std::uint8_t* asked);
   /// Calls answer(wedges, pairs) for sixteen doubtful wedges at once.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "horizon/edge_crossing.hpp"
 #include "horizon/edge_culling.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/wedge_kernels.hpp"
@@ -203,17 +204,19 @@ std::size_t list_reaching(const EdgeSpans& s, std::size_t edges, std::uint32_t w
   return count;
 }
 
-/// The slopes of sixteen edges along a direction d; 0 where it passes them.
-FARLOD_LANES Floats slopes_along(const WedgeEdges& e, const LookInWedge& look) {
-  // Edges that are seen end-on have no width
-  constexpr float min_sine = 1e-5F;
-  const Floats px = load(e.ax) - look.x, py = load(e.ay) - look.y, pz = load(e.az) - look.z;
-  const Floats qx = load(e.bx) - look.x, qy = load(e.by) - look.y, qz = load(e.bz) - look.z;
-  const Floats cross = px * qy - py * qx, squares = (px * px + py * py) * (qx * qx + qy * qy);
-  const Floats inverse = choose(cross * cross > min_sine * min_sine * squares, 1.0F / cross, broadcast(0.0F));
-  // d meets what is between both ends where p × d and d × q have the sign of p × q
-  const Floats u = (px * look.sine - py * look.cosine) * inverse, v = (qy * look.cosine - qx * look.sine) * inverse;
-  return choose(min(u, v) >= 0.0F, pz * v + qz * u, broadcast(0.0F));
+/// The slopes of sixteen edges along a direction; 0 where it passes them, or they are seen end-on.
+FARLOD_LANES Floats slopes_along(const WedgeEdges& edges, const LookInWedge& look) {
+  RelativeEdge e;
+  e.px = load(edges.ax) - look.x;
+  e.py = load(edges.ay) - look.y;
+  e.pz = load(edges.az) - look.z;
+  e.qx = load(edges.bx) - look.x;
+  e.qy = load(edges.by) - look.y;
+  e.qz = load(edges.bz) - look.z;
+  const Floats cross = e.px * e.qy - e.py * e.qx;
+  e.inverse_cross = choose(off_line_of(e, cross) > 0.0F, 1.0F / cross, broadcast(0.0F));
+  const Crossing c = crossing_of(e, EdgeReach::unbounded, look.cosine, look.sine);
+  return choose(c.inside >= 0.0F, c.slope, broadcast(0.0F));
 }
 
 /// The highest edge of each lane, of two at the same slope the one with the lower number.

@@ -161,7 +161,7 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBorders) {
   const PacketEnvelope::Rows borders = rows_of(border);
   std::vector<std::uint8_t> reached(azimuths_.size(), 1);
   reached[3] = 0;
-  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {borders, reached});
+  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(tops_, {borders, reached});
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     double between = 0.0;
     // A level edge lies above the slope of its ends: less of the sky is below the slope
@@ -176,7 +176,7 @@ TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBorders) {
 TEST_P(PacketEnvelopes, BoundWhatIsSeenBelowBordersBetweenHorizons) {
   // No border is given: those that are no higher than a receiver's horizons at both azimuths are nowhere told
   const std::vector<std::uint8_t> reached(azimuths_.size(), 1);
-  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(occluders(), {rows_of(0.0F), reached});
+  const PacketEnvelope::Sums gaps = envelope_.most_in_gaps(tops_, {rows_of(0.0F), reached});
   for (std::size_t l = 0; l < receivers_.count; ++l) {
     double between = 0.0;
     for (std::size_t k = 0; k < envelope_.size(); ++k) {
