@@ -74,20 +74,12 @@ struct RaiseHorizon {
   }
 };
 
-/// The same, with the number of the edge that each slope is of, and the spans of all edges that may rise above them between the
-/// azimuths, too.
-struct RaiseTrackedHorizon {
-  static constexpr SectorAzimuths culled_at = SectorAzimuths::and_beside;
+/// The same, with the number of the edge that each slope is of.
+struct RaiseNumberedHorizon {
+  static constexpr SectorAzimuths culled_at = SectorAzimuths::inside;
   float* slopes;
   std::int32_t* numbers;
-  RoomForSpans drawn;
-  std::size_t& count;
-  FARLOD_LANES void keep(std::int32_t number, float max_slope, std::uint32_t first_wedge, std::uint32_t wedges) const {
-    drawn.number[count] = static_cast<std::uint32_t>(number);
-    drawn.first[count] = static_cast<std::int32_t>(first_wedge);
-    drawn.count[count] = static_cast<std::int32_t>(wedges);
-    drawn.max_slope[count++] = max_slope;
-  }
+  FARLOD_LANES void keep(std::int32_t, float, std::uint32_t, std::uint32_t) const {}
   FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t number, float max_slope, const AzimuthView& a, std::uint32_t first,
                          std::uint32_t end) const {
     for (std::uint32_t k = first; k < end; ++k) {
@@ -99,6 +91,19 @@ struct RaiseTrackedHorizon {
       store(choose(is_higher, slope, before), row);
       store(choose(is_higher, broadcast(number), load(edges)), edges);
     }
+  }
+};
+
+/// The same, with the spans of all edges that may rise above them, between the azimuths, too.
+struct RaiseTrackedHorizon : RaiseNumberedHorizon {
+  static constexpr SectorAzimuths culled_at = SectorAzimuths::and_beside;
+  RoomForSpans drawn;
+  std::size_t& count;
+  FARLOD_LANES void keep(std::int32_t number, float max_slope, std::uint32_t first_wedge, std::uint32_t wedges) const {
+    drawn.number[count] = static_cast<std::uint32_t>(number);
+    drawn.first[count] = static_cast<std::int32_t>(first_wedge);
+    drawn.count[count] = static_cast<std::int32_t>(wedges);
+    drawn.max_slope[count++] = max_slope;
   }
 };
 
@@ -209,8 +214,11 @@ std::size_t raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& recei
   std::size_t count = 0;
   if (rows.numbers == nullptr)
     raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseHorizon{rows.slopes});
+  else if (rows.drawn.number == nullptr)
+    raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseNumberedHorizon{rows.slopes, rows.numbers});
   else
-    raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseTrackedHorizon{rows.slopes, rows.numbers, rows.drawn, count});
+    raise_horizon(edges, receivers, bounds, azimuths, culling,
+                  RaiseTrackedHorizon{{rows.slopes, rows.numbers}, rows.drawn, count});
   return count;
 }
 

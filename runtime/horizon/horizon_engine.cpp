@@ -50,10 +50,10 @@ void HorizonEngine::tell_profiles(ProfileRows rows, OnProfile on_profile) {
 }
 
 template <class Begin>
-void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin) {
-  while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_, PacketHorizon::Edges::tracked);
+void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, PacketHorizon::Edges edges, const Begin& begin) {
+  while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_, edges);
   const std::span horizons = std::span(grounded_).first(packets.size());
-  for (PacketHorizon& horizon : horizons) horizon.clear();
+  for (PacketHorizon& horizon : horizons) horizon.clear(edges);
   if (pixels_ != nullptr) {
     pixels_->draw(packets, horizons);
     return;
@@ -73,7 +73,7 @@ void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const
 void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
   FARLOD_EXPECTS(answers.size() == packets.size());
   // The residual horizon comes first: it is cheap, and culls edges
-  draw_grounded(packets,
+  draw_grounded(packets, HorizonJumps::edges_for(azimuths_),
                 [this](const ReceiverPacket& packet, PacketHorizon& horizon) { residual_.raise_to_estimate(packet, horizon); });
   for (std::size_t n = 0; n < packets.size(); ++n) {
     std::swap(horizons_.grounded, grounded_[n]);
@@ -84,7 +84,7 @@ void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<
 
 void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
   FARLOD_EXPECTS(answers.size() == packets.size() && pixels_ == nullptr);
-  draw_grounded(packets, [](const ReceiverPacket&, PacketHorizon&) {});
+  draw_grounded(packets, PacketHorizon::Edges::tracked, [](const ReceiverPacket&, PacketHorizon&) {});
   certain().begin(packets, std::span(grounded_).first(packets.size()));
   for (std::size_t n = 0; n < packets.size(); ++n) {
     std::swap(horizons_.grounded, grounded_[n]);

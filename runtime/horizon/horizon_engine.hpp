@@ -78,7 +78,7 @@ class HorizonEngine {
   /// Draws the grounded horizons of all packets, above those that `begin(packet, horizon)` makes, and finds the overhangs above
   /// them.
   template <class Begin>
-  void draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin);
+  void draw_grounded(std::span<const ReceiverPacket> packets, PacketHorizon::Edges edges, const Begin& begin);
   /// Answers one packet, whose grounded horizon is drawn.
   void evaluate(const ReceiverPacket& receivers, PacketAnswer& answer);
   void evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer);

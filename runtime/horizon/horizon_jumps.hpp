@@ -30,6 +30,10 @@ class HorizonJumps {
   static constexpr float least_beyond = 0.2F;
   /// With fewer azimuths, more of them are cheaper than to look for it.
   static constexpr std::size_t least_azimuths_to_look = 256;
+  /// What a horizon must know of its edges.
+  [[nodiscard]] static PacketHorizon::Edges edges_for(const AzimuthSampling& azimuths) {
+    return azimuths.size() < least_azimuths_to_look ? PacketHorizon::Edges::numbered : PacketHorizon::Edges::tracked;
+  }
 
   /// Both must outlive it. The sampling must be even, and `ends` have the numbers of the borders.
   HorizonJumps(const AzimuthSampling& azimuths, const BorderEnds& ends)
@@ -44,8 +48,8 @@ class HorizonJumps {
   struct OfAzimuths {
     std::span<PacketHorizon::Row> sky = {}, for_light = {};  ///< with jumps down to least_jump, and to least_jump_of_light
   };
-  /// The horizon must track its edges. No correction with fewer than `least_azimuths`. Nothing is looked for beyond the borders
-  /// of receivers `in_recess`, since their own borders were drawn for others.
+  /// The horizon must know of its edges what edges_for() says. No correction with fewer than `least_azimuths`. Nothing is looked
+  /// for beyond the borders of receivers `in_recess`, since their own borders were drawn for others.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
                                    std::uint32_t in_recess, const OfAzimuths& of_azimuths);
 

@@ -50,8 +50,7 @@ struct RoomForSpans {
   float* max_slope;
 };
 
-/// Rows of slopes, and for horizons that track their edges the number of the edge of each slope, and room for spans of all edges
-/// that are drawn; otherwise null.
+/// Rows of slopes; the number of the edge of each slope, or null; and room for spans of all edges that are drawn, or null.
 struct DrawnRows {
   float* slopes;
   std::int32_t* numbers = nullptr;

@@ -31,6 +31,7 @@ void PacketHorizon::set_slopes(const PacketHorizon& other) {
 }
 
 void PacketHorizon::begin_above(const PacketHorizon& other) {
+  edges_ = other.edges_;
   slopes_ = other.slopes_;
   numbers_ = other.numbers_;
   drawn_.clear();
@@ -40,7 +41,7 @@ void PacketHorizon::raise(const SilhouetteEdges& edges, const ReceiverPacket& re
                           Culling culling) {
   if (edges.empty()) return;
   DrawnRows rows{data(), numbers(), {}};
-  if (rows.numbers != nullptr) rows.drawn = drawn_.room_for(edges.batches().size() * SilhouetteEdges::lanes);
+  if (tracks_edges()) rows.drawn = drawn_.room_for(edges.batches().size() * SilhouetteEdges::lanes);
   drawn_.added(
       edge_kernels().raise_to_edges({edges.batches(), edges.role()}, receivers, bounds, azimuths_->view(), culling, rows));
 }
@@ -73,7 +74,7 @@ void PacketHorizon::raise_to(const PacketHorizon& other) {
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
       numbers_[k][l] = other.slopes_[k][l] > slopes_[k][l] ? other.numbers_[k][l] : numbers_[k][l];
   sky_kernels().raise(other.data(), slopes_.size(), data());
-  if (!numbers_.empty()) drawn_.add(other.drawn_);
+  if (tracks_edges()) drawn_.add(other.drawn_);
 }
 
 void PacketHorizon::lower_to(const PacketHorizon& other) {
@@ -154,13 +155,14 @@ void PacketGroup::raise(const SilhouetteEdges& edges, std::span<const ReceiverPa
   for (const ReceiverPacket& packet : packets) bounds_.push_back(bounds_of(packet));
   // The packet in the middle goes first: most of what it sees in the end, the others see too
   const std::size_t middle = packets.size() / 2;
+  const RaisingAt where = horizons[middle].tracks_edges() ? RaisingAt::wedges : RaisingAt::azimuths;
   horizons[middle].raise(edges, packets[middle], bounds_[middle], Culling::nothing_drawn);
-  find_raising(edges, bounds_[middle], horizons.subspan(middle, 1), RaisingAt::wedges, first_);
+  find_raising(edges, bounds_[middle], horizons.subspan(middle, 1), where, first_);
   drawn_.assign(edges, first_);
   for (std::size_t n = 0; n < packets.size(); ++n)
     if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::mostly_seen);
   // Then those of the other edges that may rise above some of the horizons that this gave
-  find_raising(edges, joined(bounds_), horizons, RaisingAt::wedges, others_);
+  find_raising(edges, joined(bounds_), horizons, where, others_);
   for (std::size_t batch = 0; batch < others_.size(); ++batch) others_[batch] &= static_cast<std::uint16_t>(~first_[batch]);
   drawn_.assign(edges, others_);
   for (std::size_t n = 0; n < packets.size(); ++n)

@@ -25,15 +25,23 @@ class PacketHorizon {
   using Lanes = ReceiverPacket::Lanes;
   struct alignas(64) Row : Lanes {};  ///< a value for each receiver
 
-  /// Whether a horizon knows which edge it belongs to at each azimuth.
-  enum class Edges : std::uint8_t { unknown, tracked };
+  /// Whether a horizon knows which edge it belongs to at each azimuth; and also which edges may rise above it between two.
+  enum class Edges : std::uint8_t { unknown, numbered, tracked };
 
   /// The sampling must outlive it. All horizons are level.
   explicit PacketHorizon(const AzimuthSampling& azimuths, Edges edges = Edges::unknown)
-      : azimuths_(&azimuths), slopes_(azimuths.size()), numbers_(edges == Edges::tracked ? azimuths.size() : 0, no_edges()) {}
+      : azimuths_(&azimuths),
+        edges_(edges),
+        slopes_(azimuths.size()),
+        numbers_(edges == Edges::unknown ? 0 : azimuths.size(), no_edges()) {}
 
   /// Makes all horizons level again.
   void clear();
+  /// The same, and from now on numbers their edges, or tracks them. They must not have been unknown.
+  void clear(Edges edges) {
+    edges_ = edges;
+    clear();
+  }
   /// Raises each receiver's horizon to the edges that it sees. Fastest if edges come from near to far, since edges below the
   /// horizons of all receivers are culled.
   void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers) {
@@ -78,18 +86,20 @@ class PacketHorizon {
   }
   /// Makes the slopes those of other horizons; of which edges they are is unknown.
   void set_slopes(const PacketHorizon& other);
-  /// Makes the slopes those of other horizons, and the edges at the azimuths; drawn() is what is drawn from now on.
+  /// Makes the slopes those of other horizons, and the edges at the azimuths; drawn() is what is drawn from now on, if the others
+  /// track their edges.
   void begin_above(const PacketHorizon& other);
   /// The number of the edge (SilhouetteEdges::number) that a horizon belongs to; −1 if it is that of a far map, or level. Of
   /// horizons that track their edges, and that were raised since then by edges and estimates alone.
   [[nodiscard]] std::int32_t edge_number(std::size_t azimuth, std::size_t lane) const { return numbers_[azimuth][lane]; }
+  [[nodiscard]] bool tracks_edges() const { return edges_ == Edges::tracked; }
   /// The edges that were drawn, of horizons that track theirs: among them are all of those lists that rise somewhere in a wedge
   /// above the lower one of both horizons. Others may be there, too.
   [[nodiscard]] const DrawnEdges& drawn() const { return drawn_; }
   /// The edge numbers of all, as kernels.hpp has them.
   [[nodiscard]] const std::int32_t* numbers() const { return numbers_.front().data(); }
-  /// Where horizons that track their edges go from one edge to another, and the sky of the azimuths changes by more than `least`.
-  /// Room for one at each azimuth; returns those that there are.
+  /// Where horizons that number their edges go from one edge to another, and the sky of the azimuths changes by more than
+  /// `least`. Room for one at each azimuth; returns those that there are.
   [[nodiscard]] std::span<const SkyJump> find_jumps(std::span<const Row> sky_of_azimuths, float least,
                                                     std::span<SkyJump> room) const;
   /// slopes[azimuth][receiver], as kernels.hpp has them.
@@ -131,8 +141,9 @@ class PacketHorizon {
   [[nodiscard]] std::int32_t* numbers() { return numbers_.empty() ? nullptr : numbers_.front().data(); }
 
   const AzimuthSampling* azimuths_;
+  Edges edges_;
   std::vector<Row> slopes_;       ///< slopes_[azimuth][receiver]
-  std::vector<Numbers> numbers_;  ///< of the edges, as many; empty if they are not tracked
+  std::vector<Numbers> numbers_;  ///< of the edges, as many; empty if they are unknown
   DrawnEdges drawn_;
 };
 

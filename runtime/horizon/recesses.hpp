@@ -22,8 +22,8 @@ class Recesses {
   /// All must outlive it.
   Recesses(const AzimuthSampling& azimuths, const CellSilhouettes& silhouettes)
       : silhouettes_(silhouettes),
-        drawn_(azimuths, PacketHorizon::Edges::tracked),
-        by_others_(azimuths, PacketHorizon::Edges::tracked) {}
+        drawn_(azimuths, PacketHorizon::Edges::numbered),
+        by_others_(azimuths, PacketHorizon::Edges::numbered) {}
 
   /// What is overhead of receivers, of which these bits are below an overhang.
   [[nodiscard]] Overhead overhead_of(const ReceiverPacket& receivers, std::uint32_t below) const;
