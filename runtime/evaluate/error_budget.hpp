@@ -23,8 +23,8 @@ inline constexpr double azimuth_error_factor = 1.6;
 
 /// The same for horizons: the error of so many azimuths at the most, and the fewest azimuths whose error is at most this.
 [[nodiscard]] double azimuth_error(std::size_t azimuths);
-/// Sky in gaps below overhangs is estimated where it is less than this share of all other sky: half of that error.
-[[nodiscard]] inline float gap_tolerance(std::size_t azimuths) { return static_cast<float>(0.5 * azimuth_error(azimuths)); }
+/// Sky in gaps below overhangs is estimated where it is less than this share of all other sky: a tenth of that error.
+[[nodiscard]] inline float gap_tolerance(std::size_t azimuths) { return static_cast<float>(0.1 * azimuth_error(azimuths)); }
 [[nodiscard]] std::size_t azimuths_for_error(double error);
 
 }  // namespace farlod

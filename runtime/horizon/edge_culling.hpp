@@ -39,16 +39,38 @@ struct FacingTerms {
   Floats margin;                          ///< slack and rounding
 };
 
-FARLOD_LANES FacingTerms facing_terms(const SilhouetteEdges::Batch& e, const CenteredBox& box) {
+/// Sixteen edges for one box of receivers, or one edge for sixteen receivers.
+struct FacedEdges {
+  Floats ax, ay, az, bx, by, bz, left, right;  ///< as those of a SilhouetteEdges::Batch
+};
+struct FacingBoxes {
+  Floats x, y;  ///< as those of a CenteredBox
+  float half_x, half_y;
+  Floats low_z, high_z;
+};
+FARLOD_LANES FacedEdges faced_edges(const SilhouetteEdges::Batch& e) {
+  return {load(e.ax.data()), load(e.ay.data()), load(e.az.data()),   load(e.bx.data()),
+          load(e.by.data()), load(e.bz.data()), load(e.left.data()), load(e.right.data())};
+}
+FARLOD_LANES FacedEdges faced_edge(const SilhouetteEdges::Batch& e, std::size_t lane) {
+  return {broadcast(e.ax[lane]), broadcast(e.ay[lane]), broadcast(e.az[lane]),   broadcast(e.bx[lane]),
+          broadcast(e.by[lane]), broadcast(e.bz[lane]), broadcast(e.left[lane]), broadcast(e.right[lane])};
+}
+FARLOD_LANES FacingBoxes facing_boxes(const CenteredBox& b) {
+  return {broadcast(b.x), broadcast(b.y), b.half_x, b.half_y, broadcast(b.low_z), broadcast(b.high_z)};
+}
+/// Each receiver is a box of its own.
+FARLOD_LANES FacingBoxes facing_boxes(const Floats& x, const Floats& y, const Floats& z) { return {x, y, 0.0F, 0.0F, z, z}; }
+
+FARLOD_LANES FacingTerms facing_terms(const FacedEdges& e, const FacingBoxes& box) {
   FacingTerms t;
   // e = b − a and c, in the plan
-  const Floats ax = load(e.ax.data()), ay = load(e.ay.data()), bz = load(e.bz.data());
-  t.a_z = load(e.az.data());
-  t.along_x = load(e.bx.data()) - ax;
-  t.along_y = load(e.by.data()) - ay;
-  t.along_z = bz - t.a_z;
-  t.center_x = box.x - ax;
-  t.center_y = box.y - ay;
+  t.a_z = e.az;
+  t.along_x = e.bx - e.ax;
+  t.along_y = e.by - e.ay;
+  t.along_z = e.bz - e.az;
+  t.center_x = box.x - e.ax;
+  t.center_y = box.y - e.ay;
   // The inclination of the edge: cosine = run / length, sine = e_z / length
   const Floats run_square = t.along_x * t.along_x + t.along_y * t.along_y;
   t.run = sqrt(run_square);
@@ -65,34 +87,64 @@ FARLOD_LANES FacingTerms facing_terms(const SilhouetteEdges::Batch& e, const Cen
   return t;
 }
 
-/// The maximum over the box of  sign · rise(z) − slope · |aside|, times run: rise is the height over the edge's line, at right
-/// angles to it, of a receiver at the height z; slope that of a facet beside the edge. All receivers are on one side of the edge.
-FARLOD_LANES Floats max_excess(const FacingTerms& t, const CenteredBox& box, float sign, const Floats& z, const Floats& slope) {
+/// An interval that holds  sign · rise(z) − slope · |aside|, times run, of all receivers of a box: rise is the height over the
+/// edge's line, at right angles to it, of a receiver at the height z; slope that of a facet beside the edge. All receivers are on
+/// one side of the edge.
+struct Excess {
+  Floats middle, spread;
+  [[nodiscard]] FARLOD_LANES Floats most() const { return middle + spread; }
+  [[nodiscard]] FARLOD_LANES Floats least() const { return middle - spread; }
+};
+FARLOD_LANES Excess excess_of(const FacingTerms& t, const FacingBoxes& box, float sign, const Floats& z, const Floats& slope) {
   // At the centre: rise = (z − a_z) run cosine − ahead sine
   const Floats rise = (z - t.a_z) * t.run * t.cosine - t.ahead * t.sine;
   // The excess is linear in x and y: half a side times its gradient is the most that it grows towards a corner
   const Floats slope_to_left = choose(t.left > 0.0F, slope, -slope), sine = sign * t.sine;
   const Floats per_x = slope_to_left * t.along_y - sine * t.along_x, per_y = -slope_to_left * t.along_x - sine * t.along_y;
-  return sign * rise - t.left * slope_to_left + abs(per_x) * box.half_x + abs(per_y) * box.half_y +
-         t.margin * (1.0F + abs(slope));
+  return {sign * rise - t.left * slope_to_left,
+          abs(per_x) * box.half_x + abs(per_y) * box.half_y + t.margin * (1.0F + abs(slope))};
 }
 
-/// Greater than 0 for the edges that may be a silhouette. A lower border is an upper one upside down.
-FARLOD_LANES Floats may_be_silhouette(const FacingTerms& t, const SilhouetteEdges::Batch& e, const CenteredBox& box,
-                                      bool is_upper) {
-  // The facets towards and away from the receivers
-  const Floats left = load(e.left.data()), right = load(e.right.data());
-  const Floats near_slope = choose(t.left > 0.0F, left, right), far_slope = choose(t.left > 0.0F, right, left);
-  // A receiver above the edge does not have it as a horizon: heights end below its higher end
-  const Floats below_edge = t.a_z + max(t.along_z, broadcast(0.0F)) - 2.0F * facing_margin_m;
-  const Floats highest = min(broadcast(box.high_z), below_edge), lowest = broadcast(box.low_z);
+/// A receiver above the edge does not have it as a horizon: heights end below its higher end.
+FARLOD_LANES Floats below_edge(const FacingTerms& t) { return t.a_z + max(t.along_z, broadcast(0.0F)) - 2.0F * facing_margin_m; }
+/// Greater than 0 where all receivers are on one side of the edge. An upright edge has no sides.
+FARLOD_LANES Floats clear_aside(const FacingTerms& t, const FacingBoxes& box) {
+  return abs(t.left) - abs(t.along_y) * box.half_x - abs(t.along_x) * box.half_y - t.margin;
+}
+/// The slopes of the facets towards and away from the receivers.
+FARLOD_LANES Floats near_slope(const FacingTerms& t, const FacedEdges& e) { return choose(t.left > 0.0F, e.left, e.right); }
+FARLOD_LANES Floats far_slope(const FacingTerms& t, const FacedEdges& e) { return choose(t.left > 0.0F, e.right, e.left); }
+
+/// Greater than 0 for the edges that may be a silhouette for some receiver of a box. A lower border is an upper one upside down.
+FARLOD_LANES Floats may_be_silhouette(const FacingTerms& t, const FacedEdges& e, const FacingBoxes& box, bool is_upper) {
+  const Floats highest = min(box.high_z, below_edge(t)), lowest = box.low_z;
   // Some receiver sees the edge over the near facet, and some receiver sees no far facet rise behind it
-  const Floats over_near =
-      is_upper ? max_excess(t, box, 1.0F, highest, near_slope) : max_excess(t, box, -1.0F, lowest, -near_slope);
-  const Floats over_far = is_upper ? max_excess(t, box, -1.0F, lowest, far_slope) : max_excess(t, box, 1.0F, highest, -far_slope);
-  // With receivers on both sides, or for an upright edge, there is no near and far: keep the edge
-  const Floats aside = abs(t.left) - abs(t.along_y) * box.half_x - abs(t.along_x) * box.half_y;
-  return choose(aside > t.margin, min(over_near, over_far), broadcast(1.0F));
+  const Floats over_near = is_upper ? excess_of(t, box, 1.0F, highest, near_slope(t, e)).most()
+                                    : excess_of(t, box, -1.0F, lowest, -near_slope(t, e)).most();
+  const Floats over_far = is_upper ? excess_of(t, box, -1.0F, lowest, far_slope(t, e)).most()
+                                   : excess_of(t, box, 1.0F, highest, -far_slope(t, e)).most();
+  // With receivers on both sides there is no near and far: keep the edge
+  return choose(clear_aside(t, box) > 0.0F, min(over_near, over_far), broadcast(1.0F));
+}
+
+/// Greater than 0 for the lower borders that certainly face all receivers of a box.
+FARLOD_LANES Floats face_all(const FacingTerms& t, const FacedEdges& e, const FacingBoxes& box) {
+  const Floats over_near = excess_of(t, box, -1.0F, box.high_z, -near_slope(t, e)).least(),
+               over_far = excess_of(t, box, 1.0F, min(box.low_z, below_edge(t)), -far_slope(t, e)).least();
+  return min(clear_aside(t, box), min(over_near, over_far));
+}
+
+/// A bit for each edge of a batch: whether it may face some receiver of a box; and of lower borders, whether it may not face all.
+struct FacingEdges {
+  std::uint32_t some = 0, doubtful = 0;
+};
+FARLOD_LANES FacingEdges facing_edges(const SilhouetteEdges::Batch& edges, const CenteredBox& box, bool is_upper) {
+  const FacedEdges faced = faced_edges(edges);
+  const FacingBoxes boxes = facing_boxes(box);
+  const FacingTerms terms = facing_terms(faced, boxes);
+  FacingEdges facing{bits_of(may_be_silhouette(terms, faced, boxes, is_upper) > 0.0F)};
+  if (!is_upper) facing.doubtful = ~bits_of(face_all(terms, faced, boxes) > 0.0F);
+  return facing;
 }
 
 /// Distance in the plan from the box's centre to the edge: |c − s e| with s = clamp(e · c / |e|², 0, 1).

@@ -41,6 +41,15 @@ FARLOD_LANES void invert_cross(RelativeEdge& e) {
   e.inverse_cross = choose(cross * cross > 0.0F, inverse, broadcast(0.0F));
 }
 
+/// A lower border that faces away from a receiver, though not from all of the packet, has no width for it. If it counted, the
+/// receiver's gaps would depend on which others are in the packet.
+FARLOD_LANES void hide_facing_away(const SilhouetteEdges::Batch& edges, std::size_t lane, const Places& r, RelativeEdge& e) {
+  const FacedEdges faced = faced_edge(edges, lane);
+  const FacingBoxes boxes = facing_boxes(r.x, r.y, r.z);
+  const Floats faces = may_be_silhouette(facing_terms(faced, boxes), faced, boxes, false);
+  e.inverse_cross = choose(faces > 0.0F, e.inverse_cross, broadcast(0.0F));
+}
+
 /// On which side of an edge right above it a receiver is taken to stand.
 enum class Beside { front, back };
 
@@ -137,12 +146,18 @@ FARLOD_LANES void draw_interval(const RelativeEdge& e, std::int32_t number, floa
 
 /// Draws an edge that is too close for bounds at all azimuths.
 template <class Horizon>
-FARLOD_LANES void draw_nearby(RelativeEdge& e, std::int32_t number, bool is_upper, const AzimuthView& a, const Horizon& horizon) {
+FARLOD_LANES void draw_nearby(const SilhouetteEdges::Batch& edges, std::size_t lane, bool is_upper, const Places& receivers,
+                              const AzimuthView& a, const Horizon& horizon) {
+  RelativeEdge e;
+  const std::int32_t number = edges.number[lane];
+  set_ends(edges, lane, receivers, e);
   // An upper border hides the side that it faces away from (SilhouetteEdges::add); below a lower one, sky may be seen on both
   const bool is_overhead = invert_cross_nearby(e, Beside::front);
+  if (!is_upper) hide_facing_away(edges, lane, receivers, e);
   horizon.draw(e, number, EdgeReach::unbounded, a, 0, a.size);
   if (is_overhead && !is_upper) {
     invert_cross_nearby(e, Beside::back);
+    hide_facing_away(edges, lane, receivers, e);
     horizon.draw(e, number, EdgeReach::unbounded, a, 0, a.size);
   }
 }
@@ -156,7 +171,8 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
   const EdgeReach reach = reach_of(edges, bounds);
   std::uint32_t kept = min_horizon != nullptr ? raising_edges(reach, *min_horizon) : seen_edges(reach);
   if (kept == 0) return;
-  kept &= bits_of(may_be_silhouette(facing_terms(edges, bounds.box), edges, bounds.box, is_upper) > 0.0F);
+  const FacingEdges facing = facing_edges(edges, bounds.box, is_upper);
+  kept &= facing.some;
   // Draw the others one by one, each for sixteen receivers, between its first and last slot
   const std::array first_slot = to_array(truncate(reach.from * azimuths.slots)),
                    end_slot = to_array(truncate(reach.to * azimuths.slots) + 1);
@@ -166,8 +182,7 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
     const auto lane = static_cast<std::size_t>(std::countr_zero(kept));
     if (max_slope[lane] == EdgeReach::unbounded) {
       horizon.keep(edges.number[lane], max_slope[lane], 0, azimuths.size);
-      set_ends(edges, lane, receivers, e);
-      draw_nearby(e, edges.number[lane], is_upper, azimuths, horizon);
+      draw_nearby(edges, lane, is_upper, receivers, azimuths, horizon);
       continue;
     }
     // Small and distant edges may lie between two azimuths
@@ -177,6 +192,7 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
     if (first == end) continue;
     set_ends(edges, lane, receivers, e);
     invert_cross(e);
+    if (has_bit(facing.doubtful, lane)) hide_facing_away(edges, lane, receivers, e);
     draw_interval(e, edges.number[lane], max_slope[lane], azimuths, first, end, horizon);
   }
 }
@@ -244,11 +260,13 @@ void find_raising(const EdgeBatches& edges, const PacketBounds& bounds, std::spa
 
 void find_facing(const EdgeBatches& edges, const CenteredBox& box, float* distances_m) {
   const bool is_upper = edges.role != EdgeRole::underside;
+  const FacingBoxes boxes = facing_boxes(box);
   for (const SilhouetteEdges::Batch& batch : edges.batches) {
-    const FacingTerms t = facing_terms(batch, box);
+    const FacedEdges faced = faced_edges(batch);
+    const FacingTerms t = facing_terms(faced, boxes);
     // An edge below all receivers is no silhouette
     const Floats highest = max(t.along_z, broadcast(0.0F)) + t.a_z;
-    const Floats kept = choose(highest > box.low_z, may_be_silhouette(t, batch, box, is_upper), broadcast(-1.0F));
+    const Floats kept = choose(highest > box.low_z, may_be_silhouette(t, faced, boxes, is_upper), broadcast(-1.0F));
     store(choose(kept > 0.0F, distance_from_center(t), broadcast(-1.0F)), distances_m);
     distances_m += lane_count;
   }

@@ -142,6 +142,34 @@ TEST_P(ScalarKernels, HorizonsDoNotDependOnCulling) {
   }
 }
 
+/// Facets beside a lower border may face some receivers of a packet, and not others.
+TEST_P(ScalarKernels, LowerBordersOfAReceiverDoNotDependOnTheOthers) {
+  std::size_t raised = 0, higher_for_others = 0;
+  for (int n = 0; n < 30; ++n) {
+    const ReceiverPacket packet = random_packet(25.0);
+    std::vector<HorizonEdge> edges = random_edges(EdgeRole::underside, packet);
+    const auto rise = [this] { return static_cast<std::int8_t>(random_.between(-127.0, 128.0)); };
+    for (HorizonEdge& e : edges) e.adjacent = {rise(), rise()};
+    const SilhouetteEdges undersides = silhouettes(EdgeRole::underside, edges);
+    const auto drawn = [&](const ReceiverPacket& receivers) {
+      Rows slopes(azimuths_.size());
+      (void)edge().raise_to_edges({undersides.batches(), EdgeRole::underside}, receivers, bounds_of(receivers), azimuths_.view(),
+                                  Culling::nothing_drawn, {data(slopes)});
+      return slopes;
+    };
+    const Rows together = drawn(packet);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Rows alone = drawn(packet_of(std::array{place(packet, l)}));
+      for (std::size_t k = 0; k < azimuths_.size(); ++k) {
+        EXPECT_FLOAT_EQ(together[k][l], alone[k][0]) << n << ", " << k << ", " << l;
+        raised += alone[k][0] > 0.0F ? 1 : 0;
+        higher_for_others += scalar::raised(0.0F, edges, place(packet, l), bounds_of(packet), azimuth(k)) > alone[k][0] ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(std::min(raised, higher_for_others), 5'000U) << "too few to tell";
+}
+
 TEST_P(ScalarKernels, HorizonsLoweredToEdgesAboveAMinimum) {
   std::size_t lowered = 0;
   for (int n = 0; n < 60; ++n) {
