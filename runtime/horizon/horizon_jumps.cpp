@@ -21,6 +21,7 @@ namespace {
 struct BordersInWedge {
   const DrawnEdges* drawn;
   std::uint32_t wedge, wedges;
+  float least;  ///< how much sky must be at stake
 };
 
 /// A place on the way from the higher of two horizons to the lower one: the share of the way, and its slope.
@@ -164,24 +165,32 @@ struct SkyOfBoth {
   float higher, lower;
 };
 
-/// The mean sky on the way, past the border and what comes into sight where it ends, and then above the lower horizon.
-float mean_sky(BorderOnWay& border, const BordersInWedge& borders, const SkyAtAzimuth& sky, const SkyOfBoth& both) {
+/// How much more the mean sky on the way is than with the jump in its middle: past the border and what comes into sight where it
+/// ends, and then above the lower horizon.
+struct AddedSky {
+  float sky, light;
+};
+AddedSky added_sky(BorderOnWay& border, const BordersInWedge& borders, const SkyAtAzimuth& sky, const SkyOfBoth& both) {
   // More edges within one jump are not followed
   constexpr int most_edges = 16;
   constexpr float half = 0.5F;
   float share = 0.0F, here = both.higher, mean = 0.0F;
+  const auto added = [&] { return mean + (1.0F - share) * both.lower - half * (both.higher + both.lower); };
+  std::optional<float> of_sky;  // once light alone is looked for
   for (int n = 0; n < most_edges; ++n) {
     const float there = sky.above(border.at().slope);
     mean += half * (border.at().share - share) * (here + there);
     share = border.at().share;
     here = there;
     if (border.go_on()) continue;
-    if (!((1.0F - share) * (both.lower - there) > HorizonJumps::least_beyond)) break;
+    const float at_stake = (1.0F - share) * (both.lower - there);
+    if (!(at_stake > borders.least)) break;
+    if (!of_sky && !(at_stake > HorizonJumps::least_beyond)) of_sky = added();
     const std::optional<float> slope = border.go_beyond(borders);
     if (!slope) break;
     here = sky.above(*slope);
   }
-  return mean + (1.0F - share) * both.lower;
+  return {of_sky.value_or(added()), added()};
 }
 
 }  // namespace
@@ -193,16 +202,16 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   std::copy_n(sky_.begin(), of_sky.size(), of_sky.begin());
   std::copy_n(sky_.begin(), of_light.size(), of_light.begin());
   if (azimuths_.size() < least_azimuths) return above;
-  const float least = of_light.empty() ? least_jump : least_jump_of_light;
-  for (const SkyJump& jump : horizon.find_jumps(sky_, least, jumps_))
+  const bool is_light = !of_light.empty();
+  for (const SkyJump& jump : horizon.find_jumps(sky_, is_light ? least_jump_of_light : least_jump, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, least, in_recess});
-      if (!of_light.empty()) of_light[correction.azimuth][lane] += correction.sky;
+      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, is_light, in_recess});
+      if (is_light) of_light[correction.azimuth_of(correction.light)][lane] += correction.light;
       const float of_rows = std::abs(sky_[jump.azimuth][lane] - sky_[after(jump.azimuth)][lane]);
       if (!(of_rows > least_jump) || correction.jump < least_jump) continue;
       above.correction[lane] += correction.sky;
-      if (!of_sky.empty()) of_sky[correction.azimuth][lane] += correction.sky;
+      if (!of_sky.empty()) of_sky[correction.azimuth_of(correction.sky)][lane] += correction.sky;
     }
   for (std::size_t l = 0; l < above.sky.size(); ++l) {
     above.correction[l] /= static_cast<float>(azimuths_.size());
@@ -212,7 +221,7 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
 }
 
 HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const {
-  const auto& [horizon, weight, receivers, least, in_recess] = seen;
+  const auto& [horizon, weight, receivers, is_light, in_recess] = seen;
   const std::size_t next = after(azimuth);
   const bool is_here = horizon.row(azimuth)[lane] > horizon.row(next)[lane];
   const std::size_t higher = is_here ? azimuth : next, lower = is_here ? next : azimuth;
@@ -233,13 +242,12 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
   const SkyAtAzimuth sky(weight, outward, receivers.normal_z[lane]);
   const SkyOfBoth both{sky.above(higher_slope), sky.above(lower_slope)};
   const float size = both.lower - both.higher;
-  if (size < least) return {};
+  if (size < (is_light ? least_jump_of_light : least_jump)) return {};
   const bool looks = azimuths_.size() >= least_azimuths_to_look && ((in_recess >> lane) & 1U) == 0;
   const BordersInWedge borders{looks ? &horizon.drawn() : nullptr, static_cast<std::uint32_t>(azimuth),
-                               static_cast<std::uint32_t>(azimuths_.size())};
-  const float correction = mean_sky(border, borders, sky, both) - half * (both.higher + both.lower);
-  // (3) One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own
-  return {correction, correction > 0.0F ? higher : lower, size};
+                               static_cast<std::uint32_t>(azimuths_.size()), is_light ? least_beyond_of_light : least_beyond};
+  const AddedSky added = added_sky(border, borders, sky, both);
+  return {added.sky, added.light, higher, lower, size};
 }
 
 }  // namespace farlod

@@ -26,8 +26,9 @@ class HorizonJumps {
   static constexpr float least_jump = 0.1F;
   /// Those that are worth more than others, such as where the sun is, are placed down to this.
   static constexpr float least_jump_of_light = 0.01F;
-  /// What comes into sight beside the end of a border is looked for where so much sky would be left to the lower horizon.
-  static constexpr float least_beyond = 0.2F;
+  /// What comes into sight beside the end of a border is looked for where so much sky would be left to the lower horizon; for
+  /// light, so much.
+  static constexpr float least_beyond = 0.2F, least_beyond_of_light = 0.05F;
   /// With fewer azimuths, more of them are cheaper than to look for it.
   static constexpr std::size_t least_azimuths_to_look = 256;
   /// What a horizon must know of its edges.
@@ -54,17 +55,19 @@ class HorizonJumps {
                                    std::uint32_t in_recess, const OfAzimuths& of_azimuths);
 
  private:
-  /// What one jump of one receiver adds to the sum over the azimuths, and to which of them.
+  /// What one jump of one receiver adds to the sum over the azimuths.
   struct Correction {
-    float sky = 0.0F;
-    std::size_t azimuth = 0;
-    float jump = 0.0F;  ///< the sky between both horizons
+    float sky = 0.0F, light = 0.0F;
+    std::size_t higher = 0, lower = 0;  ///< the azimuths of both horizons
+    float jump = 0.0F;                  ///< the sky between both
+    /// One that reaches far hides sky of the other azimuth; one that does not leaves sky of its own.
+    [[nodiscard]] std::size_t azimuth_of(float added) const { return added > 0.0F ? higher : lower; }
   };
   struct Seen {
     const PacketHorizon& horizon;
     SkyWeight weight;
     const ReceiverPacket& receivers;
-    float least;
+    bool is_light;
     std::uint32_t in_recess;
   };
   [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const;

@@ -61,7 +61,7 @@ struct Walls {
 };
 
 struct Answers {
-  double even, placed;
+  double even, placed, of_light;
 };
 Answers answers_of(const std::vector<HorizonEdge>& edges, std::size_t azimuths, const Point3f& normal = {0.0F, 0.0F, 1.0F}) {
   const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
@@ -75,12 +75,17 @@ Answers answers_of(const std::vector<HorizonEdge>& edges, std::size_t azimuths, 
   PacketHorizon horizon(ring, PacketHorizon::Edges::tracked);
   horizon.clear();
   horizon.raise(silhouettes, receiver);
-  return {horizon.sky_above(SkyWeight::cosine, receiver)[0],
-          HorizonJumps(ring, ends).sky_above(horizon, SkyWeight::cosine, receiver, 0, {}).sky[0]};
+  HorizonJumps jumps(ring, ends);
+  const float placed = jumps.sky_above(horizon, SkyWeight::cosine, receiver, 0, {}).sky[0];
+  std::vector<PacketHorizon::Row> rows(azimuths);
+  EXPECT_EQ(jumps.sky_above(horizon, SkyWeight::cosine, receiver, 0, {.for_light = rows}).sky[0], placed);
+  double of_light = 0.0;
+  for (const PacketHorizon::Row& row : rows) of_light += static_cast<double>(row[0]) / static_cast<double>(azimuths);
+  return {horizon.sky_above(SkyWeight::cosine, receiver)[0], placed, of_light};
 }
 
 struct LargestErrors {
-  double even = 0.0, placed = 0.0;
+  double even = 0.0, placed = 0.0, of_light = 0.0;
 };
 /// Over walls that are turned a little at a time, by a whole azimuth in all.
 template <class WallsAt>
@@ -92,6 +97,7 @@ LargestErrors largest_errors(std::size_t azimuths, const WallsAt& walls_at) {
     const Answers answers = answers_of(walls.edges(), azimuths);
     largest.even = std::max(largest.even, std::abs(answers.even - walls.svf()));
     largest.placed = std::max(largest.placed, std::abs(answers.placed - walls.svf()));
+    largest.of_light = std::max(largest.of_light, std::abs(answers.of_light - walls.svf()));
   }
   return largest;
 }
@@ -166,6 +172,16 @@ TEST(HorizonJumps, ALowerWallComesIntoSightWhereAHigherOneEnds) {
   const LargestErrors largest = largest_errors(azimuths, walls_at);
   EXPECT_GT(largest.even, 0.4 / azimuths);
   EXPECT_LT(largest.placed, 0.05 / azimuths);
+}
+
+TEST(HorizonJumps, ALowerWallCountsForLightWhereLittleSkyIsAtStake) {
+  constexpr std::size_t azimuths = HorizonJumps::least_azimuths_to_look;
+  const auto walls_at = [](double by) {
+    return WallBehind{{{at(10.0 + by, 20.0), at(50.0 + by, 20.0)}, 8.0}, {{at(35.0 + by, 60.0), at(50.9 + by, 60.0)}, 18.0}};
+  };
+  const LargestErrors largest = largest_errors(azimuths, walls_at);
+  EXPECT_GT(largest.placed, 0.03 / azimuths);
+  EXPECT_LT(largest.of_light, 0.01 / azimuths);
 }
 
 TEST(HorizonJumps, ATurnOfTheNormalIsNone) {
