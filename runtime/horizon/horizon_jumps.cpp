@@ -185,7 +185,7 @@ AddedSky added_sky(BorderOnWay& border, const BordersInWedge& borders, const Sky
     if (border.go_on()) continue;
     const float at_stake = (1.0F - share) * (both.lower - there);
     if (!(at_stake > borders.least)) break;
-    if (!of_sky && !(at_stake > HorizonJumps::least_beyond)) of_sky = added();
+    if (!of_sky && !(at_stake > HorizonJumps::least_of_sky.beyond)) of_sky = added();
     const std::optional<float> slope = border.go_beyond(borders);
     if (!slope) break;
     here = sky.above(*slope);
@@ -203,13 +203,14 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   std::copy_n(sky_.begin(), of_light.size(), of_light.begin());
   if (azimuths_.size() < least_azimuths) return above;
   const bool is_light = !of_light.empty();
-  for (const SkyJump& jump : horizon.find_jumps(sky_, is_light ? least_jump_of_light : least_jump, jumps_))
+  const Least least = is_light ? least_of_light : least_of_sky;
+  for (const SkyJump& jump : horizon.find_jumps(sky_, least.jump, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, is_light, in_recess});
+      const Correction correction = correction_of(jump.azimuth, lane, {horizon, weight, receivers, least, in_recess});
       if (is_light) of_light[correction.azimuth_of(correction.light)][lane] += correction.light;
       const float of_rows = std::abs(sky_[jump.azimuth][lane] - sky_[after(jump.azimuth)][lane]);
-      if (!(of_rows > least_jump) || correction.jump < least_jump) continue;
+      if (!(of_rows > least_of_sky.jump) || correction.jump < least_of_sky.jump) continue;
       above.correction[lane] += correction.sky;
       if (!of_sky.empty()) of_sky[correction.azimuth_of(correction.sky)][lane] += correction.sky;
     }
@@ -221,7 +222,7 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
 }
 
 HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const {
-  const auto& [horizon, weight, receivers, is_light, in_recess] = seen;
+  const auto& [horizon, weight, receivers, least, in_recess] = seen;
   const std::size_t next = after(azimuth);
   const bool is_here = horizon.row(azimuth)[lane] > horizon.row(next)[lane];
   const std::size_t higher = is_here ? azimuth : next, lower = is_here ? next : azimuth;
@@ -242,10 +243,10 @@ HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::s
   const SkyAtAzimuth sky(weight, outward, receivers.normal_z[lane]);
   const SkyOfBoth both{sky.above(higher_slope), sky.above(lower_slope)};
   const float size = both.lower - both.higher;
-  if (size < (is_light ? least_jump_of_light : least_jump)) return {};
+  if (size < least.jump) return {};
   const bool looks = azimuths_.size() >= least_azimuths_to_look && ((in_recess >> lane) & 1U) == 0;
   const BordersInWedge borders{looks ? &horizon.drawn() : nullptr, static_cast<std::uint32_t>(azimuth),
-                               static_cast<std::uint32_t>(azimuths_.size()), is_light ? least_beyond_of_light : least_beyond};
+                               static_cast<std::uint32_t>(azimuths_.size()), least.beyond};
   const AddedSky added = added_sky(border, borders, sky, both);
   return {added.sky, added.light, higher, lower, size};
 }

@@ -22,13 +22,13 @@ class HorizonJumps {
  public:
   /// Fewer azimuths are too far apart to take the sine of an angle between them for the angle.
   static constexpr std::size_t least_azimuths = 32;
-  /// Jumps of less sky than this stay where they are: there are many, and together they are worth little.
-  static constexpr float least_jump = 0.1F;
-  /// Those that are worth more than others, such as where the sun is, are placed down to this.
-  static constexpr float least_jump_of_light = 0.01F;
-  /// What comes into sight beside the end of a border is looked for where so much sky would be left to the lower horizon; for
-  /// light, so much.
-  static constexpr float least_beyond = 0.2F, least_beyond_of_light = 0.05F;
+  /// Jumps of less sky than `jump` stay where they are: there are many, and together they are worth little. What comes into sight
+  /// beside the end of a border is looked for where more than `beyond` would be left to the lower horizon.
+  struct Least {
+    float jump, beyond;
+  };
+  /// Light is worth more than sky where the sun is.
+  static constexpr Least least_of_sky{0.1F, 0.2F}, least_of_light{0.01F, 0.05F};
   /// With fewer azimuths, more of them are cheaper than to look for it.
   static constexpr std::size_t least_azimuths_to_look = 256;
   /// What a horizon must know of its edges.
@@ -47,7 +47,7 @@ class HorizonJumps {
   /// Take the sky of each azimuth by itself, which the corrections of its jumps are a part of; or nothing, where there are no
   /// rows.
   struct OfAzimuths {
-    std::span<PacketHorizon::Row> sky = {}, for_light = {};  ///< with jumps down to least_jump, and to least_jump_of_light
+    std::span<PacketHorizon::Row> sky = {}, for_light = {};  ///< with jumps down to least_of_sky, and to least_of_light
   };
   /// The horizon must know of its edges what edges_for() says. No correction with fewer than `least_azimuths`. Nothing is looked
   /// for beyond the borders of receivers `in_recess`, since their own borders were drawn for others.
@@ -67,7 +67,7 @@ class HorizonJumps {
     const PacketHorizon& horizon;
     SkyWeight weight;
     const ReceiverPacket& receivers;
-    bool is_light;
+    Least least;
     std::uint32_t in_recess;
   };
   [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const Seen& seen) const;

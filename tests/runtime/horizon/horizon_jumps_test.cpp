@@ -163,25 +163,24 @@ struct WallBehind {
   }
 };
 
+/// What is seen of the wall behind is narrower than the distance of two azimuths: mostly, no azimuth meets it.
+LargestErrors largest_errors_of_walls(double front_m, double behind_m) {
+  return largest_errors(HorizonJumps::least_azimuths_to_look, [&](double by) {
+    return WallBehind{{{at(10.0 + by, 20.0), at(50.0 + by, 20.0)}, front_m},
+                      {{at(35.0 + by, 60.0), at(50.9 + by, 60.0)}, behind_m}};
+  });
+}
+
 TEST(HorizonJumps, ALowerWallComesIntoSightWhereAHigherOneEnds) {
-  constexpr std::size_t azimuths = HorizonJumps::least_azimuths_to_look;
-  // What is seen of it is narrower than the distance of two azimuths: mostly, no azimuth meets it
-  const auto walls_at = [](double by) {
-    return WallBehind{{{at(10.0 + by, 20.0), at(50.0 + by, 20.0)}, 60.0}, {{at(35.0 + by, 60.0), at(50.9 + by, 60.0)}, 70.0}};
-  };
-  const LargestErrors largest = largest_errors(azimuths, walls_at);
-  EXPECT_GT(largest.even, 0.4 / azimuths);
-  EXPECT_LT(largest.placed, 0.05 / azimuths);
+  const LargestErrors largest = largest_errors_of_walls(60.0, 70.0);
+  EXPECT_GT(largest.even, 0.4 / HorizonJumps::least_azimuths_to_look);
+  EXPECT_LT(largest.placed, 0.05 / HorizonJumps::least_azimuths_to_look);
 }
 
 TEST(HorizonJumps, ALowerWallCountsForLightWhereLittleSkyIsAtStake) {
-  constexpr std::size_t azimuths = HorizonJumps::least_azimuths_to_look;
-  const auto walls_at = [](double by) {
-    return WallBehind{{{at(10.0 + by, 20.0), at(50.0 + by, 20.0)}, 8.0}, {{at(35.0 + by, 60.0), at(50.9 + by, 60.0)}, 18.0}};
-  };
-  const LargestErrors largest = largest_errors(azimuths, walls_at);
-  EXPECT_GT(largest.placed, 0.03 / azimuths);
-  EXPECT_LT(largest.of_light, 0.01 / azimuths);
+  const LargestErrors largest = largest_errors_of_walls(8.0, 18.0);
+  EXPECT_GT(largest.placed, 0.03 / HorizonJumps::least_azimuths_to_look);
+  EXPECT_LT(largest.of_light, 0.01 / HorizonJumps::least_azimuths_to_look);
 }
 
 TEST(HorizonJumps, ATurnOfTheNormalIsNone) {
